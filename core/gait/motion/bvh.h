@@ -1,0 +1,63 @@
+// BVH files: what the file says, to the letter (BvhFile), and what it means (Clip).
+//
+// Keeping both apart lets a program change some joints and write the rest untouched: hierarchy,
+// channel orders and values that were not set are written as they were read.
+#pragma once
+
+#include <Eigen/Core>
+#include <cstdint>
+#include <filesystem>
+#include <string>
+#include <string_view>
+#include <vector>
+
+#include "gait/motion/clip.h"
+
+namespace gait {
+
+enum class Channel : std::uint8_t {
+  x_position,
+  y_position,
+  z_position,
+  x_rotation,
+  y_rotation,
+  z_rotation
+};
+
+struct BvhFile {
+  std::string name;                             // path, for messages
+  Skeleton skeleton;                            // in the file's own unit and axes
+  std::vector<std::vector<Channel>> channels;   // per joint, in the file's order
+  double frame_time = 1.0 / 30;                 // seconds
+  // One row per frame, one column per channel; rotations in degrees as in the file.
+  Eigen::Matrix<double, Eigen::Dynamic, Eigen::Dynamic, Eigen::RowMajor> values;
+  std::vector<std::string> warnings;            // what was odd but usable, each with file and line
+};
+
+// Reads a BVH file. Throws Error with file, line and what was expected: not a BVH, truncated, fewer
+// rows than `Frames:` says, a wrong number of values in a row, NaN or Inf, unknown channels, absurd
+// counts, nesting too deep. More rows than announced are a warning.
+BvhFile read_bvh(const std::filesystem::path& path);
+BvhFile parse_bvh(std::string_view text, std::string name);
+
+// Writes it back: same hierarchy and channel orders, values such that reading them again gives the
+// same doubles. To a temporary file first, then renamed. Throws Error when it cannot be written.
+void write_bvh(const BvhFile& file, const std::filesystem::path& path);
+std::string bvh_text(const BvhFile& file);
+
+// What the file means, in its own unit and axes. Position channels replace the joint's offset, each
+// for its axis; rotations apply in the order of the channels.
+Clip clip_from_bvh(const BvhFile& file);
+
+// Puts a local rotation (or translation) into a frame's channels, in the joint's own channel order.
+// Euler angles are chosen nearest to those of the frame before, so that curves do not jump. Only
+// three rotation channels can take a rotation; a joint without position channels ignores a
+// translation.
+void set_rotation(BvhFile& file, int frame, int joint, const Eigen::Quaterniond& rotation);
+void set_translation(BvhFile& file, int frame, int joint, const Eigen::Vector3d& translation);
+
+// A file for a clip that came from none: roots get six channels (positions, then Z, X, Y
+// rotations), other joints three.
+BvhFile bvh_from_clip(const Clip& clip);
+
+}  // namespace gait

@@ -1,0 +1,74 @@
+// Joint roles: which joint is the hips, the left shank, the head; found from usual names, with a
+// table the user can override.
+#pragma once
+
+#include <array>
+#include <filesystem>
+#include <map>
+#include <optional>
+#include <string>
+#include <string_view>
+#include <vector>
+
+#include "gait/motion/skeleton.h"
+
+namespace gait {
+
+enum class Role {
+  none,
+  hips,
+  spine,
+  neck,
+  head,
+  left_shoulder,
+  left_arm,
+  left_forearm,
+  left_hand,
+  right_shoulder,
+  right_arm,
+  right_forearm,
+  right_hand,
+  left_thigh,
+  left_shank,
+  left_foot,
+  left_toes,
+  right_thigh,
+  right_shank,
+  right_foot,
+  right_toes,
+};
+
+std::string_view role_name(Role role);                       // "left thigh"
+std::optional<Role> role_from_name(std::string_view name);   // also "left_thigh", "LeftThigh"
+
+// The joints of one leg; toes may be missing (-1).
+struct Leg {
+  int thigh = -1, shank = -1, foot = -1, toes = -1;
+};
+
+struct JointRoles {
+  std::vector<Role> of_joint;  // one per joint; several joints may share spine, neck or hand
+  int hips = -1;
+  Leg left, right;
+
+  // First joint with this role, -1 when there is none.
+  int joint(Role role) const;
+  bool has_legs() const {
+    return hips >= 0 && left.thigh >= 0 && left.shank >= 0 && left.foot >= 0 && right.thigh >= 0 &&
+           right.shank >= 0 && right.foot >= 0;
+  }
+  // hips and all joints of the legs, in the skeleton's order: what is synthesised by default.
+  std::vector<int> hips_and_legs() const;
+};
+
+// A table that overrides what names suggest: joint name -> role.
+using RoleTable = std::map<std::string, Role>;
+
+// Finds roles from names (Bandai-Namco, CMU, Mixamo, Xsens, Perception Neuron, VRM/Unity and
+// others); the hips are the joint both thighs descend from when no name says so.
+JointRoles find_roles(const Skeleton& skeleton, const RoleTable& table = {});
+
+// Reads a table: one `joint = role` a line, # starts a comment. Throws Error with file and line.
+RoleTable read_role_table(const std::filesystem::path& path);
+
+}  // namespace gait

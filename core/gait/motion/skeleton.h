@@ -1,0 +1,27 @@
+// Skeleton: a tree of joints, each at a fixed offset from its parent.
+#pragma once
+
+#include <Eigen/Core>
+#include <string>
+#include <string_view>
+#include <vector>
+
+namespace gait {
+
+struct Joint {
+  std::string name;
+  int parent = -1;                     // index of the parent, always smaller than the joint's own; -1: a root
+  Eigen::Vector3d offset{0, 0, 0};     // from the parent, in the parent's frame
+  std::vector<Eigen::Vector3d> tips;   // end sites: where bones without a joint at their end stop
+};
+
+struct Skeleton {
+  std::vector<Joint> joints;  // parents before children, in the order of the file
+
+  int size() const { return static_cast<int>(joints.size()); }
+
+  // Index of the joint with this very name, -1 when there is none.
+  int find(std::string_view name) const;
+};
+
+}  // namespace gait

@@ -1,0 +1,7 @@
+// The command line program `gait`: what is done before the show.
+#include <cstdio>
+
+int main() {
+  std::puts("gait");
+  return 0;
+}
