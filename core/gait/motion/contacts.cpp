@@ -1,0 +1,156 @@
+#include "gait/motion/contacts.h"
+
+#include <algorithm>
+#include <cmath>
+
+#include "gait/error.h"
+#include "gait/motion/heading.h"
+
+namespace gait {
+
+namespace {
+
+constexpr double first_guess_of_cycle = 1.1;      // seconds; an adult's at an easy pace
+constexpr double least_stride_per_leg = 0.12;     // feet closer than this never stepped
+constexpr double shortest_step_seconds = 0.18;    // a stumble, not a step
+
+class Walk {
+ public:
+  Walk(const Clip& clip, const JointRoles& roles, const WorldPoses& world)
+      : roles_(roles), world_(world), joints_(clip.skeleton.size()), frames_(clip.frames()) {}
+
+  int frames() const { return frames_; }
+  const Eigen::Vector3d& position(int frame, int joint) const {
+    return world_.positions[static_cast<std::size_t>(frame) * joints_ + joint];
+  }
+  int foot(Foot foot) const {
+    return foot == Foot::right ? roles_.right.foot : roles_.left.foot;
+  }
+  // How far a foot is ahead of the hips along the heading, metres.
+  double ahead(int frame, Foot which, const std::vector<double>& heading) const {
+    return (position(frame, foot(which)) - position(frame, roles_.hips))
+        .dot(heading_direction(heading[frame]));
+  }
+
+ private:
+  const JointRoles& roles_;
+  const WorldPoses& world_;
+  int joints_, frames_;
+};
+
+// The foot ahead changes with each step: between two changes lies one contact, where the leading
+// foot is farthest ahead of the hips. Hysteresis keeps a shuffle from counting.
+std::vector<Contact> contacts_along(const Walk& walk, const std::vector<double>& heading,
+                                    double leg_length, double frame_rate) {
+  const int frames = walk.frames();
+  std::vector<double> right_lead(frames);
+  double widest = 0;
+  for (int frame = 0; frame < frames; ++frame) {
+    right_lead[frame] =
+        walk.ahead(frame, Foot::right, heading) - walk.ahead(frame, Foot::left, heading);
+    widest = std::max(widest, std::abs(right_lead[frame]));
+  }
+  if (widest < least_stride_per_leg * leg_length) return {};
+  const double threshold = 0.15 * widest;
+
+  std::vector<Contact> contacts;
+  int begin = 0, lead = 0;  // lead: +1 right foot ahead, -1 left, 0 not known yet
+  const auto close = [&](int end) {
+    if (lead == 0) return;
+    const Foot foot = lead > 0 ? Foot::right : Foot::left;
+    int best = begin;
+    for (int frame = begin; frame < end; ++frame)
+      if (walk.ahead(frame, foot, heading) > walk.ahead(best, foot, heading)) best = frame;
+    // A maximum at the clip's edge is where the capture began or stopped, not a contact.
+    if (best == 0 || best == frames - 1) return;
+    if (!contacts.empty() && (best - contacts.back().frame) < shortest_step_seconds * frame_rate)
+      return;
+    if (!contacts.empty() && contacts.back().foot == foot) return;
+    contacts.push_back({best, foot});
+  };
+  for (int frame = 0; frame < frames; ++frame) {
+    const int now = right_lead[frame] > threshold ? 1 : right_lead[frame] < -threshold ? -1 : 0;
+    if (now == 0 || now == lead) continue;
+    close(frame);
+    begin = lead == 0 ? 0 : frame;
+    lead = now;
+  }
+  close(frames);
+  return contacts;
+}
+
+double median_cycle(const std::vector<Contact>& contacts, double frame_rate) {
+  std::vector<int> lengths;
+  for (std::size_t i = 0; i + 2 < contacts.size(); ++i)
+    lengths.push_back(contacts[i + 2].frame - contacts[i].frame);
+  if (lengths.empty()) return first_guess_of_cycle;
+  std::nth_element(lengths.begin(), lengths.begin() + lengths.size() / 2, lengths.end());
+  return lengths[lengths.size() / 2] / frame_rate;
+}
+
+// Median backward speed of the standing foot against the hips, in the middle of its stance.
+double stance_speed(const Walk& walk, const WalkTrack& track, double frame_rate) {
+  std::vector<double> speeds;
+  for (std::size_t i = 0; i + 1 < track.contacts.size(); ++i) {
+    const Contact& contact = track.contacts[i];
+    const int length = track.contacts[i + 1].frame - contact.frame;
+    const int begin = contact.frame + length / 4, end = contact.frame + (3 * length) / 4;
+    if (end <= begin) continue;
+    speeds.push_back((walk.ahead(begin, contact.foot, track.heading) -
+                      walk.ahead(end, contact.foot, track.heading)) *
+                     frame_rate / (end - begin));
+  }
+  if (speeds.empty()) return 0;
+  std::nth_element(speeds.begin(), speeds.begin() + speeds.size() / 2, speeds.end());
+  return speeds[speeds.size() / 2];
+}
+
+}  // namespace
+
+WalkTrack follow_walk(const Clip& clip, const JointRoles& roles) {
+  if (!roles.has_legs())
+    throw Error(clip.name +
+                ": expected joints for hips and for thigh, shank and foot of both legs; found none "
+                "for some of them (a role table can name them)");
+  WalkTrack track;
+  track.world = world_poses(clip);
+  const Walk walk(clip, roles, track.world);
+  const auto& joints = clip.skeleton.joints;
+  track.leg_length =
+      joints[roles.left.shank].offset.norm() + joints[roles.left.foot].offset.norm();
+  if (clip.frames() < 3) {
+    track.heading.assign(clip.frames(), 0.0);
+    return track;
+  }
+  // Heading needs the cycle and the cycle needs contacts: twice is enough, both change slowly.
+  for (int pass = 0; pass < 2; ++pass) {
+    track.heading = centred_heading(track.world, roles, clip.skeleton.size(), clip.frame_rate,
+                                    track.cycle_seconds);
+    track.contacts = contacts_along(walk, track.heading, track.leg_length, clip.frame_rate);
+    track.cycle_seconds = median_cycle(track.contacts, clip.frame_rate);
+  }
+  double path = 0;
+  const int first = track.contacts.empty() ? 0 : track.contacts.front().frame;
+  const int last = track.contacts.empty() ? clip.frames() - 1 : track.contacts.back().frame;
+  for (int frame = first; frame < last; ++frame) {
+    Eigen::Vector3d moved = walk.position(frame + 1, roles.hips) - walk.position(frame, roles.hips);
+    path += moved.dot(heading_direction(track.heading[frame]));
+  }
+  const double root_speed = last > first ? path * clip.frame_rate / (last - first) : 0;
+  const double feet_speed = stance_speed(walk, track, clip.frame_rate);
+  track.treadmill = feet_speed > 0.2 && root_speed < 0.3 * feet_speed;
+  track.speed = track.treadmill ? feet_speed : std::max(0.0, root_speed);
+  return track;
+}
+
+std::vector<Cycle> straight_cycles(const WalkTrack& track, double limit) {
+  std::vector<Cycle> straight;
+  for (const Cycle& cycle : cycles_between(track.contacts)) {
+    const auto [low, high] = std::minmax_element(track.heading.begin() + cycle.begin,
+                                                 track.heading.begin() + cycle.end);
+    if (*high - *low < limit) straight.push_back(cycle);
+  }
+  return straight;
+}
+
+}  // namespace gait
