@@ -1,0 +1,112 @@
+// What is learnt: plain data, no behaviour. `learn` makes it, `play` reads it, model_file keeps it.
+//
+// A model joins input streams to output streams by labels, each a left-to-right HMM whose states
+// hold one Gaussian over z = [x; y] (T14 §3). Steps of a walk are the default instance: labels
+// `right` and `left` that follow each other, streams that are joint rotations. Nothing here needs
+// two labels, or a body.
+#pragma once
+
+#include <Eigen/Core>
+#include <Eigen/Geometry>
+#include <optional>
+#include <string>
+#include <vector>
+
+#include "gait/motion/joint_roles.h"
+#include "gait/motion/observation.h"
+#include "gait/motion/skeleton.h"
+
+namespace gait {
+
+enum class StreamKind {
+  rotation,  // three values, the rotation vector of a joint relative to its reference, radians
+  plain      // any number of values in the stream's own unit
+};
+
+struct Stream {
+  std::string name;
+  int size = 3;  // values per frame
+  StreamKind kind = StreamKind::rotation;
+};
+
+int values_of(const std::vector<Stream>& streams);
+
+struct State {
+  // Gaussian over z = [x; y], scaled; x has model.input.size() entries, y model.output.size().
+  Eigen::VectorXd mean;
+  Eigen::MatrixXd covariance;
+  double stay = 0.5;           // probability of staying for another frame
+  double duration = 0;         // mean time spent here, seconds
+  double weight = 0;           // how many frames it was learnt from
+  Eigen::MatrixXd style_means; // z by styles: per-style means, scaled
+  Eigen::MatrixXd style_covariance;  // of x within styles, shared by all styles
+};
+
+struct Label {
+  std::string name;
+  std::vector<int> successors;  // indices of the labels that may follow
+  std::vector<State> states;    // left to right, no skips
+  double duration = 0;            // mean time from its begin to its end, seconds
+  double duration_deviation = 0;  // seconds
+  double shortest = 0, longest = 0;  // seconds, as seen in training
+};
+
+// The body behind rotation streams.
+struct Body {
+  Skeleton skeleton;                            // metres, Y up
+  std::vector<Role> roles;                      // one per joint
+  std::vector<Eigen::Quaterniond> references;   // per joint, chordal mean over the training clips
+  std::vector<int> input_joints, output_joints; // indices, in the order of the streams
+  double heading_window = 1.1;                  // seconds in a cycle: window of the causal heading
+};
+
+enum class DecoderKind { viterbi, forward, lag };
+
+// How to play the model unless told otherwise; found by cross-validation where that is said.
+struct PlayDefaults {
+  DecoderKind decoder = DecoderKind::forward;
+  double lag = 0.1;            // seconds, for DecoderKind::lag
+  double temper = 0.1;         // exponent on emissions in the forward filter
+  double past = 20.0 / 30;     // seconds of state queue before the current frame (P)
+  double future = 0;           // seconds after it (F)
+  double strength = 1;         // of the mapping
+  double style_memory = 1;     // seconds over which style scores leak
+  double style_temper = 0.02;  // exponent on style likelihoods
+};
+
+// How the model came about and how good it is, for `gait info`.
+struct Training {
+  std::string date, comment;
+  std::vector<std::string> clips;
+  double regularisation = 30;  // kappa
+  std::string regularisation_chosen_by;
+  std::vector<double> log_likelihood, penalised_log_likelihood;  // per iteration
+  double validated_error = 0;           // mean angle of output joints on held-out clips, radians
+  double validated_step_accuracy = 0;   // shares, 0 when not validated
+  double validated_style_accuracy = 0;
+  double validated_calibration_error = 0;
+  bool synthetic = false;
+};
+
+struct Model {
+  std::string name;
+  double frame_rate = 30;  // frames per second of everything below
+  std::vector<Stream> inputs, outputs;
+  InputLayout input;
+  OutputLayout output;
+  Scaling input_scaling, output_scaling;
+  Eigen::VectorXd output_mean;   // one per output value: what unmodelled ones are set to
+  std::vector<Label> labels;
+  std::vector<std::string> styles;
+  std::optional<Body> body;
+  PlayDefaults play;
+  Training training;
+
+  int states() const {
+    int count = 0;
+    for (const Label& label : labels) count += static_cast<int>(label.states.size());
+    return count;
+  }
+};
+
+}  // namespace gait
