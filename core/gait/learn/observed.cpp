@@ -1,0 +1,144 @@
+#include "gait/learn/observed.h"
+
+#include <algorithm>
+#include <cmath>
+
+#include "gait/error.h"
+
+namespace gait {
+
+namespace {
+
+struct Moments {
+  Eigen::VectorXd mean, deviation;
+};
+
+// Over the frames inside segments of all sequences; `of` picks the matrix (rows by frames).
+template <typename Of>
+Moments moments_of(const std::vector<Sequence>& sequences, Of of) {
+  Eigen::VectorXd sum, squares;
+  double count = 0;
+  for (const Sequence& sequence : sequences) {
+    if (sequence.segments.empty()) continue;
+    const Eigen::MatrixXd& values = of(sequence);
+    const int begin = sequence.segments.front().begin;
+    const int length = sequence.segments.back().end - begin;
+    if (sum.size() == 0) sum = Eigen::VectorXd::Zero(values.rows());
+    sum += values.middleCols(begin, length).rowwise().sum();
+    count += length;
+  }
+  Moments moments;
+  if (count == 0) return moments;
+  moments.mean = sum / count;
+  squares = Eigen::VectorXd::Zero(sum.size());
+  for (const Sequence& sequence : sequences) {
+    if (sequence.segments.empty()) continue;
+    const Eigen::MatrixXd& values = of(sequence);
+    const int begin = sequence.segments.front().begin;
+    const int length = sequence.segments.back().end - begin;
+    squares += (values.middleCols(begin, length).colwise() - moments.mean).rowwise().squaredNorm();
+  }
+  moments.deviation = (squares / count).cwiseSqrt();
+  return moments;
+}
+
+std::vector<int> moving(const Eigen::VectorXd& deviation) {
+  std::vector<int> indices;
+  for (int i = 0; i < deviation.size(); ++i)
+    if (deviation[i] >= least_deviation) indices.push_back(i);
+  return indices;
+}
+
+Eigen::MatrixXd raw_inputs(const Sequence& sequence, const InputLayout& layout) {
+  Scaling none{Eigen::VectorXd::Zero(layout.size()), Eigen::VectorXd::Ones(layout.size())};
+  InputObserver<double> observer(layout, none);
+  Eigen::MatrixXd x(layout.size(), sequence.inputs.cols());
+  for (int frame = 0; frame < x.cols(); ++frame) {
+    observer.advance({sequence.inputs.col(frame).data(), static_cast<std::size_t>(layout.values)});
+    x.col(frame) = observer.raw();
+  }
+  return x;
+}
+
+Eigen::MatrixXd raw_outputs(const Sequence& sequence, const OutputLayout& layout) {
+  const int statics = layout.statics(), frames = static_cast<int>(sequence.outputs.cols());
+  Eigen::MatrixXd y = Eigen::MatrixXd::Zero(layout.size(), frames);
+  for (int frame = 0; frame < frames; ++frame)
+    for (int i = 0; i < statics; ++i) {
+      const auto at = [&](int offset) {
+        return sequence.outputs(layout.modelled[i], std::clamp(frame + offset, 0, frames - 1));
+      };
+      y(i, frame) = at(0);
+      for (int offset = -1; offset <= 1; ++offset) {
+        y(statics + i, frame) += first_difference[offset + 1] * at(offset);
+        y(2 * statics + i, frame) += second_difference[offset + 1] * at(offset);
+      }
+    }
+  return y;
+}
+
+// Differences that hardly vary would be blown up by their own deviation.
+Scaling scaling_of(const std::vector<Sequence>& observed, bool inputs) {
+  const Moments moments = moments_of(
+      observed, [&](const Sequence& s) -> const Eigen::MatrixXd& { return inputs ? s.inputs : s.outputs; });
+  return {moments.mean, moments.deviation.cwiseMax(1e-6)};
+}
+
+// Segments cut to the frames whose observation is whole: [first, last).
+std::vector<Segment> cut(const std::vector<Segment>& segments, int first, int last) {
+  std::vector<Segment> kept;
+  for (Segment segment : segments) {
+    // A segment that lost its beginning would teach its first states wrongly.
+    if (segment.begin < first || segment.end > last) continue;
+    kept.push_back(segment);
+  }
+  return kept;
+}
+
+}  // namespace
+
+ObservationSet observe(const std::vector<Sequence>& sequences, const std::vector<int>& lags) {
+  ObservationSet set;
+  const Moments inputs =
+      moments_of(sequences, [](const Sequence& s) -> const Eigen::MatrixXd& { return s.inputs; });
+  const Moments outputs =
+      moments_of(sequences, [](const Sequence& s) -> const Eigen::MatrixXd& { return s.outputs; });
+  if (inputs.mean.size() == 0)
+    throw Error("expected at least one sequence with labelled frames; found none");
+  set.input = {static_cast<int>(inputs.mean.size()), moving(inputs.deviation), lags};
+  set.output = {static_cast<int>(outputs.mean.size()), moving(outputs.deviation)};
+  set.output_mean = outputs.mean;
+  if (set.input.modelled.empty())
+    throw Error("expected input streams that move; none of " +
+                std::to_string(set.input.values) + " values deviates by " +
+                std::to_string(least_deviation) + " or more");
+
+  const int history = lags.empty() ? 0 : lags.back();
+  std::vector<Sequence> raw;
+  for (const Sequence& sequence : sequences) {
+    const int frames = static_cast<int>(sequence.inputs.cols());
+    Sequence observed{sequence.name, {}, {}, cut(sequence.segments, history, frames - 1),
+                      sequence.style};
+    if (observed.segments.empty()) continue;
+    observed.inputs = raw_inputs(sequence, set.input);
+    observed.outputs = raw_outputs(sequence, set.output);
+    raw.push_back(std::move(observed));
+  }
+  if (raw.empty()) throw Error("expected sequences longer than their history; none is left");
+  set.input_scaling = scaling_of(raw, true);
+  set.output_scaling = scaling_of(raw, false);
+  for (const Sequence& sequence : raw) {
+    ObservedSequence observed{sequence.name, {}, {}, sequence.segments, sequence.style};
+    const auto scaled = [](const Eigen::MatrixXd& values, const Scaling& scaling) {
+      return Eigen::MatrixXd(((values.colwise() - scaling.mean).array().colwise() *
+                              scaling.deviation.cwiseInverse().array())
+                                 .matrix());
+    };
+    observed.x = scaled(sequence.inputs, set.input_scaling);
+    observed.y = scaled(sequence.outputs, set.output_scaling);
+    set.sequences.push_back(std::move(observed));
+  }
+  return set;
+}
+
+}  // namespace gait

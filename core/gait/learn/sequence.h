@@ -1,0 +1,31 @@
+// Sequence: one take as learning sees it, whatever its streams are: values per frame, and who did
+// what when.
+#pragma once
+
+#include <Eigen/Core>
+#include <string>
+#include <vector>
+
+namespace gait {
+
+struct Segment {
+  int begin = 0, end = 0;  // frames [begin, end)
+  int label = 0;           // index into the labels
+};
+
+struct Sequence {
+  std::string name;
+  Eigen::MatrixXd inputs, outputs;  // values by frames
+  std::vector<Segment> segments;    // in order, each beginning where the one before ended
+  int style = -1;                   // index into the styles, -1: none
+};
+
+// The same take as scaled observations; columns are frames [first_frame, first_frame + columns).
+struct ObservedSequence {
+  std::string name;
+  Eigen::MatrixXd x, y;           // observation by frames
+  std::vector<Segment> segments;  // frames of x and y
+  int style = -1;
+};
+
+}  // namespace gait

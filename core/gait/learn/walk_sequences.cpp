@@ -1,0 +1,197 @@
+#include "gait/learn/walk_sequences.h"
+
+#include <algorithm>
+#include <cmath>
+
+#include "gait/error.h"
+#include "gait/model/body_pose.h"
+#include "gait/motion/contacts.h"
+#include "gait/motion/resample.h"
+#include "gait/motion/rotation.h"
+
+namespace gait {
+
+namespace {
+
+constexpr double default_frame_rate = 30;
+
+bool is_above(const Skeleton& skeleton, int joint, int below) {
+  for (int at = skeleton.joints[below].parent; at >= 0; at = skeleton.joints[at].parent)
+    if (at == joint) return true;
+  return false;
+}
+
+std::vector<int> named_joints(const Skeleton& skeleton, const std::vector<std::string>& names,
+                              const char* which) {
+  std::vector<int> joints;
+  std::string unknown;
+  for (const std::string& name : names) {
+    const int joint = skeleton.find(name);
+    if (joint < 0)
+      unknown += (unknown.empty() ? "" : ", ") + name;
+    else if (std::find(joints.begin(), joints.end(), joint) == joints.end())
+      joints.push_back(joint);
+  }
+  if (!unknown.empty()) {
+    std::string known;
+    for (const Joint& joint : skeleton.joints) known += (known.empty() ? "" : ", ") + joint.name;
+    throw Error(std::string(which) + " joints: unknown: " + unknown + "; the clips have " + known);
+  }
+  std::sort(joints.begin(), joints.end());
+  return joints;
+}
+
+Body body_of(const Clip& clip, const WalkOptions& options) {
+  Body body;
+  body.skeleton = clip.skeleton;
+  const JointRoles roles = find_roles(clip.skeleton, options.roles);
+  if (!roles.has_legs())
+    throw Error(clip.name +
+                ": expected joints for hips and for thigh, shank and foot of both legs; name them "
+                "with a role table");
+  body.roles = roles.of_joint;
+  body.roles[roles.hips] = Role::hips;
+  body.output_joints = options.output_joints.empty()
+                           ? roles.hips_and_legs()
+                           : named_joints(clip.skeleton, options.output_joints, "output");
+  const auto contains = [](const std::vector<int>& joints, int joint) {
+    return std::find(joints.begin(), joints.end(), joint) != joints.end();
+  };
+  const std::vector<int> lower = roles.hips_and_legs();
+  if (options.input_joints.empty()) {
+    for (int joint = 0; joint < clip.skeleton.size(); ++joint)
+      if (!contains(body.output_joints, joint) && !contains(lower, joint) &&
+          !is_above(clip.skeleton, joint, roles.hips))
+        body.input_joints.push_back(joint);
+  } else {
+    body.input_joints = named_joints(clip.skeleton, options.input_joints, "input");
+    for (const int joint : body.input_joints)
+      if (contains(body.output_joints, joint))
+        throw Error("joint " + clip.skeleton.joints[joint].name +
+                    ": expected to be input or output; it is named as both");
+  }
+  if (body.input_joints.empty()) throw Error("expected at least one input joint; there is none");
+  return body;
+}
+
+// A clip seen through the body: its poses, and its steps at the model's rate.
+struct Seen {
+  BodyPoses poses;
+  std::vector<Contact> contacts;
+};
+
+std::vector<Segment> segments_of(const std::vector<Contact>& contacts) {
+  std::vector<Segment> segments;
+  for (const Step& step : steps_between(contacts))
+    segments.push_back({step.begin, step.end, step.foot == Foot::right ? 0 : 1});
+  return segments;
+}
+
+// The reference rotation of each joint: the chordal mean over all frames of all used clips.
+std::vector<Eigen::Quaterniond> references_of(const std::vector<Seen>& seen, int joints) {
+  std::vector<Eigen::Quaterniond> references, of_joint;
+  for (int joint = 0; joint < joints; ++joint) {
+    of_joint.clear();
+    for (const Seen& one : seen)
+      for (int frame = 0; frame < one.poses.frames(); ++frame)
+        of_joint.push_back(one.poses.pose(frame)[joint]);
+    references.push_back(chordal_mean<double>(of_joint));
+  }
+  return references;
+}
+
+Eigen::MatrixXd values_of(const Seen& seen, const Body& body, const std::vector<int>& joints) {
+  Eigen::MatrixXd values(3 * joints.size(), seen.poses.frames());
+  for (int frame = 0; frame < seen.poses.frames(); ++frame)
+    pose_vector<double>(seen.poses.pose(frame), body.references, joints,
+                        {values.col(frame).data(), static_cast<std::size_t>(values.rows())});
+  return values;
+}
+
+std::vector<Stream> streams_of(const Body& body, const std::vector<int>& joints) {
+  std::vector<Stream> streams;
+  for (const int joint : joints)
+    streams.push_back({body.skeleton.joints[joint].name, 3, StreamKind::rotation});
+  return streams;
+}
+
+}  // namespace
+
+WalkSequences walk_sequences(const std::vector<Walk>& walks, const WalkOptions& options) {
+  if (walks.empty()) throw Error("expected at least one walk; found none");
+  WalkSequences result;
+  double slowest = walks.front().clip.frame_rate;
+  for (const Walk& walk : walks) slowest = std::min(slowest, walk.clip.frame_rate);
+  result.frame_rate =
+      options.frame_rate > 0 ? options.frame_rate : std::min(default_frame_rate, slowest);
+  // A frame time written with few digits still means thirty frames a second.
+  if (std::abs(result.frame_rate - std::round(result.frame_rate)) < 0.01)
+    result.frame_rate = std::round(result.frame_rate);
+  result.body = body_of(walks.front().clip, options);
+
+  std::vector<Seen> seen;
+  std::vector<double> cycle_seconds;
+  for (std::size_t i = 0; i < walks.size(); ++i) {
+    const Walk& walk = walks[i];
+    WalkUse use{walk.clip.name, walk.style};
+    const std::vector<int> matched = match_joints(result.body, walk.clip.skeleton, walk.clip.name);
+    JointRoles roles = find_roles(walk.clip.skeleton, options.roles);
+    const WalkTrack track = follow_walk(walk.clip, roles);
+    const double ratio = result.frame_rate / walk.clip.frame_rate;
+    Seen one;
+    for (Contact contact : walk.contacts.empty() ? track.contacts : walk.contacts) {
+      contact.frame = static_cast<int>(std::lround(contact.frame * ratio));
+      one.contacts.push_back(contact);
+    }
+    use.steps = std::max(0, static_cast<int>(one.contacts.size()) - 1);
+    use.seconds = walk.clip.frames() / walk.clip.frame_rate;
+    use.speed = walk.speed.value_or(track.speed);
+    use.treadmill = track.treadmill;
+    if (std::abs(ratio - 1) > 1e-3) {
+      char text[64];
+      std::snprintf(text, sizeof text, "resampled from %g to %g frames/s", walk.clip.frame_rate,
+                    result.frame_rate);
+      use.remark = text;
+    }
+    if (use.steps < options.fewest_steps) {
+      use.why_not = "expected at least " + std::to_string(options.fewest_steps) + " steps, found " +
+                    std::to_string(use.steps);
+      result.uses.push_back(use);
+      continue;
+    }
+    one.poses = body_poses(resampled(walk.clip, result.frame_rate), result.body, matched,
+                           track.cycle_seconds);
+    use.used = true;
+    result.uses.push_back(use);
+    seen.push_back(std::move(one));
+    cycle_seconds.push_back(track.cycle_seconds);
+    result.walk_of_sequence.push_back(static_cast<int>(i));
+  }
+  if (seen.empty())
+    throw Error("expected at least one clip with " + std::to_string(options.fewest_steps) +
+                " steps; none of " + std::to_string(walks.size()) + " has them");
+  std::nth_element(cycle_seconds.begin(), cycle_seconds.begin() + cycle_seconds.size() / 2,
+                   cycle_seconds.end());
+  result.body.heading_window = cycle_seconds[cycle_seconds.size() / 2];
+  result.body.references = references_of(seen, result.body.skeleton.size());
+  result.inputs = streams_of(result.body, result.body.input_joints);
+  result.outputs = streams_of(result.body, result.body.output_joints);
+
+  for (std::size_t i = 0; i < seen.size(); ++i) {
+    const Walk& walk = walks[result.walk_of_sequence[i]];
+    Sequence sequence;
+    sequence.name = walk.clip.name;
+    sequence.inputs = values_of(seen[i], result.body, result.body.input_joints);
+    sequence.outputs = values_of(seen[i], result.body, result.body.output_joints);
+    sequence.segments = segments_of(seen[i].contacts);
+    if (!walk.style.empty()) {
+      auto at = std::find(result.styles.begin(), result.styles.end(), walk.style);
+      if (at == result.styles.end()) at = result.styles.insert(at, walk.style);
+      sequence.style = static_cast<int>(at - result.styles.begin());
+    }
+    result.sequences.push_back(std::move(sequence));
+  }
+  return result;
+}
+
+}  // namespace gait

@@ -1,0 +1,63 @@
+// From a clip to a model's body: which of its joints are meant, and its poses with heading out.
+#pragma once
+
+#include <span>
+#include <vector>
+
+#include "gait/model/model.h"
+#include "gait/motion/clip.h"
+#include "gait/motion/rotation.h"
+
+namespace gait {
+
+// Largest angle between a clip's and a body's rest direction of a bone (radians) that still counts
+// as the same rig.
+inline constexpr double rest_direction_limit = 0.17453;
+
+// For each joint of the body the index of the clip's joint of that name. Throws Error naming the
+// joints that `skeleton` lacks, or whose rest directions differ by more than the limit. `needed`
+// restricts what is asked for (indices into the body's joints; empty: all).
+std::vector<int> match_joints(const Body& body, const Skeleton& skeleton, const std::string& clip,
+                              const std::vector<int>& needed = {});
+
+// Poses of the body's joints, frame after frame: local rotations, the hips' in the world with
+// heading out. Unmatched joints (-1) keep their references.
+struct BodyPoses {
+  int joints = 0;
+  std::vector<Eigen::Quaterniond> rotations;
+  std::vector<double> heading;  // per frame, radians, as taken out
+
+  int frames() const { return joints == 0 ? 0 : static_cast<int>(rotations.size()) / joints; }
+  std::span<const Eigen::Quaterniond> pose(int frame) const {
+    return {rotations.data() + static_cast<std::size_t>(frame) * joints,
+            static_cast<std::size_t>(joints)};
+  }
+};
+
+// `clip` in metres, Y up. Heading is centred over a cycle or, when the hips are an input, causal as
+// the player's.
+BodyPoses body_poses(const Clip& clip, const Body& body, const std::vector<int>& matched,
+                     double cycle_seconds);
+
+// Pose vector: per joint of `joints` the rotation vector relative to its reference, three values
+// each. `pose` has one rotation per joint of the body.
+template <typename Scalar>
+void pose_vector(std::span<const Quaternion<Scalar>> pose,
+                 std::span<const Quaternion<Scalar>> references, std::span<const int> joints,
+                 std::span<Scalar> values) noexcept {
+  for (std::size_t i = 0; i < joints.size(); ++i) {
+    const auto joint = static_cast<std::size_t>(joints[i]);
+    const Vector3<Scalar> vector =
+        rotation_vector<Scalar>(references[joint].conjugate() * pose[joint]);
+    values[3 * i] = vector.x(), values[3 * i + 1] = vector.y(), values[3 * i + 2] = vector.z();
+  }
+}
+
+// And back: the rotation of a joint from its three values.
+template <typename Scalar>
+Quaternion<Scalar> rotation_from(std::span<const Scalar, 3> values,
+                                 const Quaternion<Scalar>& reference) noexcept {
+  return reference * exponential_map<Scalar>(Vector3<Scalar>(values[0], values[1], values[2]));
+}
+
+}  // namespace gait
