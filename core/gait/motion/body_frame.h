@@ -36,7 +36,9 @@ BodyFrame guess_body_frame(const Clip& clip, const JointRoles& roles,
 Clip in_metres_y_up(const Clip& clip, const BodyFrame& frame);
 
 // The root rotation and translation of a clip in metres, back in the file's frame.
-Eigen::Quaterniond root_rotation_in_file(const Eigen::Quaterniond& rotation, const BodyFrame& frame);
-Eigen::Vector3d root_translation_in_file(const Eigen::Vector3d& translation, const BodyFrame& frame);
+Eigen::Quaterniond root_rotation_in_file(const Eigen::Quaterniond& rotation,
+                                         const BodyFrame& frame);
+Eigen::Vector3d root_translation_in_file(const Eigen::Vector3d& translation,
+                                         const BodyFrame& frame);
 
 }  // namespace gait

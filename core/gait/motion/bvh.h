@@ -25,18 +25,18 @@ enum class Channel : std::uint8_t {
 };
 
 struct BvhFile {
-  std::string name;                             // path, for messages
-  Skeleton skeleton;                            // in the file's own unit and axes
-  std::vector<std::vector<Channel>> channels;   // per joint, in the file's order
-  double frame_time = 1.0 / 30;                 // seconds
+  std::string name;                            // path, for messages
+  Skeleton skeleton;                           // in the file's own unit and axes
+  std::vector<std::vector<Channel>> channels;  // per joint, in the file's order
+  double frame_time = 1.0 / 30;                // seconds
   // One row per frame, one column per channel; rotations in degrees as in the file.
   Eigen::Matrix<double, Eigen::Dynamic, Eigen::Dynamic, Eigen::RowMajor> values;
-  std::vector<std::string> warnings;            // what was odd but usable, each with file and line
+  std::vector<std::string> warnings;  // what was odd but usable, each with file and line
 };
 
 // Reads a BVH file. Throws Error with file, line and what was expected: not a BVH, truncated, fewer
 // rows than `Frames:` says, a wrong number of values in a row, NaN or Inf, unknown channels, absurd
-// counts, nesting too deep. More rows than announced are a warning.
+// counts, nesting too deep. More rows than announced are a warning, and all are used.
 BvhFile read_bvh(const std::filesystem::path& path);
 BvhFile parse_bvh(std::string_view text, std::string name);
 
@@ -46,18 +46,23 @@ void write_bvh(const BvhFile& file, const std::filesystem::path& path);
 std::string bvh_text(const BvhFile& file);
 
 // What the file means, in its own unit and axes. Position channels replace the joint's offset, each
-// for its axis; rotations apply in the order of the channels.
+// for its axis; rotations apply in the order of the channels, however many there are. A frame time
+// within 1e-4 of a whole frame rate is taken as that rate (0.0333333 s: 30 frames per second).
 Clip clip_from_bvh(const BvhFile& file);
 
-// Puts a local rotation (or translation) into a frame's channels, in the joint's own channel order.
-// Euler angles are chosen nearest to those of the frame before, so that curves do not jump. Only
-// three rotation channels can take a rotation; a joint without position channels ignores a
-// translation.
+// True when the joint's rotation channels can express any rotation: three, no axis twice in a row.
+bool takes_rotation(const BvhFile& file, int joint);
+
+// Puts a local rotation (or translation, in the file's unit) into a frame's channels, in the
+// joint's own channel order. Euler angles (kept to a microdegree) are chosen nearest to those of
+// the frame before, and nearest to zero in frame 0, so that curves do not jump: set frames in
+// order. Throws Error naming the joint when it does not take a rotation; a position channel that
+// the joint lacks is ignored.
 void set_rotation(BvhFile& file, int frame, int joint, const Eigen::Quaterniond& rotation);
 void set_translation(BvhFile& file, int frame, int joint, const Eigen::Vector3d& translation);
 
-// A file for a clip that came from none: roots get six channels (positions, then Z, X, Y
-// rotations), other joints three.
+// A file for a clip that came from none: roots, and joints that move against their offset, get six
+// channels (positions, then Z, X, Y rotations), other joints three.
 BvhFile bvh_from_clip(const Clip& clip);
 
 }  // namespace gait

@@ -38,8 +38,8 @@ enum class Role {
   right_toes,
 };
 
-std::string_view role_name(Role role);                       // "left thigh"
-std::optional<Role> role_from_name(std::string_view name);   // also "left_thigh", "LeftThigh"
+std::string_view role_name(Role role);                      // "left thigh"
+std::optional<Role> role_from_name(std::string_view name);  // also "left_thigh", "LeftThigh"
 
 // The joints of one leg; toes may be missing (-1).
 struct Leg {
@@ -47,7 +47,11 @@ struct Leg {
 };
 
 struct JointRoles {
-  std::vector<Role> of_joint;  // one per joint; several joints may share spine, neck or hand
+  // One per joint. Several may share a role: spine, neck, hand, a thigh in two pieces.
+  std::vector<Role> of_joint;
+  // One per joint: true from the thighs down to the last toe, and for unnamed joints between hips
+  // and thigh. All of them move with the leg, so none may count as input when legs are output.
+  std::vector<bool> in_leg;
   int hips = -1;
   Leg left, right;
 
@@ -57,7 +61,7 @@ struct JointRoles {
     return hips >= 0 && left.thigh >= 0 && left.shank >= 0 && left.foot >= 0 && right.thigh >= 0 &&
            right.shank >= 0 && right.foot >= 0;
   }
-  // hips and all joints of the legs, in the skeleton's order: what is synthesised by default.
+  // The hips and all joints in a leg, in the skeleton's order: what is synthesised by default.
   std::vector<int> hips_and_legs() const;
 };
 
@@ -65,10 +69,15 @@ struct JointRoles {
 using RoleTable = std::map<std::string, Role>;
 
 // Finds roles from names (Bandai-Namco, CMU, Mixamo, Xsens, Perception Neuron, VRM/Unity and
-// others); the hips are the joint both thighs descend from when no name says so.
+// others); the hips are the joint both thighs descend from when no name says so. A role that the
+// table gives to some joint is not given to others by their names.
 JointRoles find_roles(const Skeleton& skeleton, const RoleTable& table = {});
+
+// Names of the table that no joint of the skeleton has: misspelt, or meant for another rig.
+std::vector<std::string> names_not_in(const Skeleton& skeleton, const RoleTable& table);
 
 // Reads a table: one `joint = role` a line, # starts a comment. Throws Error with file and line.
 RoleTable read_role_table(const std::filesystem::path& path);
+RoleTable parse_role_table(std::string_view text, const std::string& name);
 
 }  // namespace gait

@@ -1,0 +1,212 @@
+#include "gait/motion/body_frame.h"
+
+#include <array>
+#include <charconv>
+#include <cmath>
+#include <numbers>
+#include <utility>
+
+#include "gait/error.h"
+#include "gait/motion/kinematics.h"
+
+namespace gait {
+namespace {
+
+struct Unit {
+  std::string_view name;
+  double metres;
+};
+
+// What a file may be in. MakeHuman writes decimetres; CMU's own files are in units of 1/0.45 inch.
+constexpr std::array<Unit, 7> kUnits{{{"m", 1},
+                                      {"cm", 0.01},
+                                      {"mm", 0.001},
+                                      {"in", 0.0254},
+                                      {"ft", 0.3048},
+                                      {"dm", 0.1},
+                                      {"cmu", 0.0254 / 0.45}}};
+
+// Thigh and shank of a grown person (m); the ranges of the units above do not overlap within it.
+constexpr double kUsualLeg = 0.83, kShortestLeg = 0.62, kLongestLeg = 1.1;
+// Standing height over leg length (Drillis and Contini 1966: 0.491 of the height; hips to knee to
+// ankle), for rigs whose legs have no names.
+constexpr double kHeightOverLeg = 2.0;
+
+struct Measured {
+  Eigen::Vector3d feet_to_head = Eigen::Vector3d::Zero();  // mean over frames, file's unit
+  double leg = 0;                                          // mean thigh + shank, file's unit
+};
+
+// Highest joint the names know, to tell up from down.
+int top_joint(const JointRoles& roles) {
+  for (const Role role : {Role::head, Role::neck, Role::spine, Role::hips})
+    if (const int joint = roles.joint(role); joint >= 0) return joint;
+  return -1;
+}
+
+Measured measure(const Clip& clip, const JointRoles& roles) {
+  Measured sum;
+  const int top = top_joint(roles);
+  if (!roles.has_legs() || clip.frames() == 0) return sum;
+  const WorldPoses world = world_poses(clip);
+  for (int frame = 0; frame < clip.frames(); ++frame) {
+    const Eigen::Vector3d* at =
+        world.positions.data() + static_cast<std::size_t>(frame) * clip.skeleton.joints.size();
+    sum.feet_to_head += at[top] - (at[roles.left.foot] + at[roles.right.foot]) / 2;
+    for (const Leg& leg : {roles.left, roles.right})
+      sum.leg +=
+          ((at[leg.thigh] - at[leg.shank]).norm() + (at[leg.shank] - at[leg.foot]).norm()) / 2;
+  }
+  sum.feet_to_head /= clip.frames();
+  sum.leg /= clip.frames();
+  return sum;
+}
+
+// Turns the given axis (0, 1, 2; sign +1 or -1) onto +Y by the shortest way.
+Eigen::Quaterniond onto_y(int axis, double sign) {
+  if (axis == 1 && sign < 0)  // half a turn about the vertical keeps nothing upside down: about X
+    return Eigen::Quaterniond(0, 1, 0, 0);
+  return Eigen::Quaterniond::FromTwoVectors(sign * Eigen::Vector3d::Unit(axis),
+                                            Eigen::Vector3d::UnitY());
+}
+
+std::string number_text(double value) {
+  std::array<char, 32> digits;
+  const auto end = std::to_chars(digits.data(), digits.data() + digits.size(), value,
+                                 std::chars_format::general, 3);
+  return {digits.data(), end.ptr};
+}
+
+void guess_up(const Clip& clip, const Eigen::Vector3d& feet_to_head, BodyFrame& frame) {
+  if (feet_to_head.norm() == 0) {
+    frame.warnings.push_back(clip.name +
+                             ": cannot tell which way is up, as no head and feet are known; taking "
+                             "Y (say --up x, y or z)");
+    return;
+  }
+  int axis = 0;
+  const double along = feet_to_head.cwiseAbs().maxCoeff(&axis);
+  const double sign = feet_to_head[axis] < 0 ? -1 : 1;
+  frame.to_y_up = onto_y(axis, sign);
+  const std::string name = std::string(sign < 0 ? "-" : "") + "XYZ"[axis];
+  // A walker leans a little; one who lies or sits does not tell.
+  if (along < std::cos(30 * std::numbers::pi / 180) * feet_to_head.norm())
+    frame.warnings.push_back(
+        clip.name + ": which way is up is doubtful, as feet to head lean by " +
+        number_text(std::acos(along / feet_to_head.norm()) * 180 / std::numbers::pi) +
+        " degrees from " + name + "; taking it (say --up x, y or z)");
+  else if (sign < 0)
+    frame.warnings.push_back(clip.name + ": the body stands upside down along " + name +
+                             "; taking that as up (say --up x, y or z)");
+}
+
+// Height of the rest pose along its longest direction, for skeletons without known legs.
+double extent(const Clip& clip) {
+  if (clip.frames() == 0) return 0;
+  const WorldPoses world = world_poses(clip);
+  Eigen::Vector3d low = Eigen::Vector3d::Constant(INFINITY), high = -low;
+  for (int joint = 0; joint < clip.skeleton.size(); ++joint) {
+    std::vector<Eigen::Vector3d> ends{world.positions[joint]};
+    for (const Eigen::Vector3d& tip : clip.skeleton.joints[joint].tips)
+      ends.push_back(world.positions[joint] + world.rotations[joint] * tip);
+    for (const Eigen::Vector3d& end : ends) {
+      low = low.cwiseMin(end);
+      high = high.cwiseMax(end);
+    }
+  }
+  return (high - low).maxCoeff();
+}
+
+void guess_unit(const Clip& clip, double leg, BodyFrame& frame) {
+  const bool legs_known = leg > 0;
+  if (!legs_known) leg = extent(clip) / kHeightOverLeg;
+  if (!(leg > 0)) {
+    frame.metres_per_unit = 0.01;
+    frame.warnings.push_back(clip.name +
+                             ": cannot tell the unit, as the body has no size; taking cm (say "
+                             "--unit m, cm, mm, in, ft or metres per unit)");
+    return;
+  }
+  const Unit* best = nullptr;
+  double least = INFINITY;
+  for (const Unit& unit : kUnits)
+    if (const double far = std::abs(std::log(leg * unit.metres / kUsualLeg)); far < least) {
+      least = far;
+      best = &unit;
+    }
+  frame.metres_per_unit = best->metres;
+  const double metres = leg * best->metres;
+  if (legs_known && metres >= kShortestLeg && metres <= kLongestLeg) return;
+  frame.warnings.push_back(
+      clip.name + ": the unit is doubtful, as " +
+      (legs_known
+           ? "a leg of " + number_text(leg) + " units"
+           : "no legs are known and a body of " + number_text(leg * kHeightOverLeg) + " units") +
+      " fits none well; taking " + std::string(best->name) + ", " + number_text(metres) +
+      " m of leg (say --unit m, cm, mm, in, ft or metres per unit)");
+}
+
+}  // namespace
+
+double metres_per_unit_named(std::string_view unit) {
+  for (const Unit& known : kUnits)
+    if (known.name == unit) return known.metres;
+  double metres = 0;
+  const auto [stop, error] = std::from_chars(unit.data(), unit.data() + unit.size(), metres);
+  if (error == std::errc{} && stop == unit.data() + unit.size() && metres >= 1e-6 && metres <= 1e6)
+    return metres;
+  throw Error(
+      "expected a unit (m, cm, mm, dm, in, ft) or metres per unit as a number above zero, "
+      "found '" +
+      std::string(unit) + "'");
+}
+
+BodyFrame guess_body_frame(const Clip& clip, const JointRoles& roles,
+                           const BodyFrameOverride& said) {
+  BodyFrame frame;
+  const Measured measured = measure(clip, roles);
+  if (said.up_axis) {
+    const char axis = *said.up_axis;
+    if (axis < 'x' || axis > 'z')
+      throw Error(std::string("expected x, y or z as the axis that points up, found '") + axis +
+                  "'");
+    frame.to_y_up = onto_y(axis - 'x', 1);
+  } else {
+    guess_up(clip, measured.feet_to_head, frame);
+  }
+  if (said.metres_per_unit)
+    frame.metres_per_unit = *said.metres_per_unit;
+  else
+    guess_unit(clip, measured.leg, frame);
+  return frame;
+}
+
+Clip in_metres_y_up(const Clip& clip, const BodyFrame& frame) {
+  Clip result = clip;
+  for (Joint& joint : result.skeleton.joints) {
+    joint.offset *= frame.metres_per_unit;
+    if (joint.parent < 0) joint.offset = frame.to_y_up * joint.offset;
+    for (Eigen::Vector3d& tip : joint.tips) tip *= frame.metres_per_unit;
+  }
+  for (Eigen::Vector3d& translation : result.translations) translation *= frame.metres_per_unit;
+  for (int joint = 0; joint < result.skeleton.size(); ++joint) {
+    if (result.skeleton.joints[joint].parent >= 0) continue;
+    for (int t = 0; t < result.frames(); ++t) {
+      result.pose(t)[joint] = frame.to_y_up * result.pose(t)[joint];
+      result.translation(t)[joint] = frame.to_y_up * result.translation(t)[joint];
+    }
+  }
+  return result;
+}
+
+Eigen::Quaterniond root_rotation_in_file(const Eigen::Quaterniond& rotation,
+                                         const BodyFrame& frame) {
+  return frame.to_y_up.conjugate() * rotation;
+}
+
+Eigen::Vector3d root_translation_in_file(const Eigen::Vector3d& translation,
+                                         const BodyFrame& frame) {
+  return frame.to_y_up.conjugate() * translation / frame.metres_per_unit;
+}
+
+}  // namespace gait

@@ -1,0 +1,64 @@
+// A place in the text of a BVH file: reads words and numbers, knows the line it is on, and makes
+// the errors that name it. Private to reading BVH.
+#pragma once
+
+#include <string>
+#include <string_view>
+
+#include "gait/error.h"
+
+namespace gait {
+
+class BvhCursor {
+ public:
+  // `text` and `name` must outlive the cursor. A byte order mark is skipped.
+  BvhCursor(std::string_view text, std::string_view name);
+
+  int line() const { return line_; }
+  std::size_t bytes_left() const { return text_.size() - position_; }
+
+  // Moves over white space, ends of lines included. False at the end of the file.
+  bool skip_space();
+  // Moves over white space within the line. False at the end of the line or file.
+  bool skip_blanks();
+  // Moves over blank lines to the first thing on a line. False at the end of the file.
+  bool next_line() { return skip_space(); }
+
+  // The next word (up to white space or a brace; a brace is a word), without moving; empty at the
+  // end of the file.
+  std::string_view peek();
+  std::string_view word();
+  // Takes the next word if it is this one, upper or lower case alike.
+  bool take(std::string_view expected);
+  // The same, and an Error that says what `expected` is for when it is not.
+  void require(std::string_view expected, std::string_view why);
+
+  // `Frames:` and `Frame Time:`: the words with a colon that may stand apart or be missing.
+  void require_title(std::string_view title);
+
+  // What is left of the line up to a brace, without white space around it: names may hold spaces.
+  std::string_view rest_of_line();
+
+  // A finite number of sensible size. `what` says what it is, for the message.
+  double number(std::string_view what);
+  // A whole number in [least, most].
+  long long count(std::string_view what, long long least, long long most);
+
+  [[noreturn]] void fail(std::string_view message) const;
+  // "path:12: message"
+  std::string here(std::string_view message) const;
+
+ private:
+  std::string_view text_;
+  std::string_view name_;
+  std::size_t position_ = 0;
+  int line_ = 1;
+};
+
+// For messages: in quotes, at most 40 bytes, what cannot be printed as \xNN.
+std::string in_quotes(std::string_view text);
+
+// True when both are the same but for upper and lower case (ASCII).
+bool same_word(std::string_view a, std::string_view b);
+
+}  // namespace gait

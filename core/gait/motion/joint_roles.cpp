@@ -1,0 +1,215 @@
+#include "gait/motion/joint_roles.h"
+
+#include <algorithm>
+#include <fstream>
+#include <utility>
+
+#include "gait/error.h"
+#include "gait/motion/joint_names.h"
+
+namespace gait {
+namespace {
+
+constexpr std::array<std::pair<Role, std::string_view>, 21> kRoleNames{{
+    {Role::none, "none"},
+    {Role::hips, "hips"},
+    {Role::spine, "spine"},
+    {Role::neck, "neck"},
+    {Role::head, "head"},
+    {Role::left_shoulder, "left shoulder"},
+    {Role::left_arm, "left arm"},
+    {Role::left_forearm, "left forearm"},
+    {Role::left_hand, "left hand"},
+    {Role::right_shoulder, "right shoulder"},
+    {Role::right_arm, "right arm"},
+    {Role::right_forearm, "right forearm"},
+    {Role::right_hand, "right hand"},
+    {Role::left_thigh, "left thigh"},
+    {Role::left_shank, "left shank"},
+    {Role::left_foot, "left foot"},
+    {Role::left_toes, "left toes"},
+    {Role::right_thigh, "right thigh"},
+    {Role::right_shank, "right shank"},
+    {Role::right_foot, "right foot"},
+    {Role::right_toes, "right toes"},
+}};
+
+std::string letters_of(std::string_view text) {
+  std::string letters;
+  for (const char c : text)
+    if (c >= 'A' && c <= 'Z')
+      letters += static_cast<char>(c - 'A' + 'a');
+    else if (c >= 'a' && c <= 'z')
+      letters += c;
+  return letters;
+}
+
+bool descends(const Skeleton& skeleton, int joint, int from) {
+  for (joint = skeleton.joints[joint].parent; joint >= 0; joint = skeleton.joints[joint].parent)
+    if (joint == from) return true;
+  return false;
+}
+
+int common_ancestor(const Skeleton& skeleton, int a, int b) {
+  for (int joint = skeleton.joints[a].parent; joint >= 0; joint = skeleton.joints[joint].parent)
+    if (descends(skeleton, b, joint)) return joint;
+  return -1;
+}
+
+// A joint of a leg that does not hang on the one above it is something else of a similar name.
+void drop_unless_below(const Skeleton& skeleton, JointRoles& roles, Role role, Role above,
+                       const std::vector<bool>& said) {
+  const int upper = roles.joint(above);
+  if (upper < 0) return;
+  for (int joint = 0; joint < skeleton.size(); ++joint)
+    if (roles.of_joint[joint] == role && !said[joint] && !descends(skeleton, joint, upper))
+      roles.of_joint[joint] = Role::none;
+}
+
+void choose_hips(const Skeleton& skeleton, JointRoles& roles, const std::vector<bool>& said) {
+  const int left = roles.left.thigh, right = roles.right.thigh;
+  int chosen = -1;
+  bool chosen_holds_legs = false;
+  for (int joint = 0; joint < skeleton.size(); ++joint) {
+    if (roles.of_joint[joint] != Role::hips) continue;
+    const bool holds_legs = left >= 0 && right >= 0 && descends(skeleton, left, joint) &&
+                            descends(skeleton, right, joint);
+    if (said[joint]) {
+      chosen = joint;
+      chosen_holds_legs = true;
+      break;
+    }
+    if (chosen < 0 || (holds_legs && !chosen_holds_legs)) {
+      chosen = joint;
+      chosen_holds_legs = holds_legs;
+    }
+  }
+  if (left >= 0 && right >= 0 && !chosen_holds_legs)
+    if (const int joint = common_ancestor(skeleton, left, right); joint >= 0) chosen = joint;
+  for (Role& role : roles.of_joint)
+    if (role == Role::hips) role = Role::none;
+  if (chosen >= 0) roles.of_joint[chosen] = Role::hips;
+  roles.hips = chosen;
+}
+
+// Roles that the table gives; what it says of a role, names no longer decide.
+std::vector<bool> apply_table(const Skeleton& skeleton, const RoleTable& table, JointRoles& roles) {
+  std::vector<bool> said(skeleton.joints.size(), false);
+  std::vector<Role> given;
+  for (int joint = 0; joint < skeleton.size(); ++joint)
+    if (const auto entry = table.find(skeleton.joints[joint].name); entry != table.end()) {
+      roles.of_joint[joint] = entry->second;
+      said[joint] = true;
+      given.push_back(entry->second);
+    }
+  for (int joint = 0; joint < skeleton.size(); ++joint)
+    if (!said[joint] && std::ranges::count(given, roles.of_joint[joint]) > 0)
+      roles.of_joint[joint] = Role::none;
+  return said;
+}
+
+}  // namespace
+
+std::string_view role_name(Role role) { return kRoleNames[static_cast<std::size_t>(role)].second; }
+
+std::optional<Role> role_from_name(std::string_view name) {
+  const std::string letters = letters_of(name);
+  for (const auto& [role, known] : kRoleNames)
+    if (letters_of(known) == letters) return role;
+  return std::nullopt;
+}
+
+int JointRoles::joint(Role role) const {
+  const auto found = std::ranges::find(of_joint, role);
+  return found == of_joint.end() ? -1 : static_cast<int>(found - of_joint.begin());
+}
+
+std::vector<int> JointRoles::hips_and_legs() const {
+  std::vector<int> joints;
+  for (std::size_t joint = 0; joint < of_joint.size(); ++joint)
+    if (static_cast<int>(joint) == hips || in_leg[joint]) joints.push_back(static_cast<int>(joint));
+  return joints;
+}
+
+JointRoles find_roles(const Skeleton& skeleton, const RoleTable& table) {
+  JointRoles roles;
+  roles.of_joint = roles_from_names(skeleton);
+  const std::vector<bool> said = apply_table(skeleton, table, roles);
+
+  for (const auto& [thigh, shank, foot, toes] :
+       {std::array{Role::left_thigh, Role::left_shank, Role::left_foot, Role::left_toes},
+        std::array{Role::right_thigh, Role::right_shank, Role::right_foot, Role::right_toes}}) {
+    drop_unless_below(skeleton, roles, shank, thigh, said);
+    drop_unless_below(skeleton, roles, foot, shank, said);
+    drop_unless_below(skeleton, roles, toes, foot, said);
+  }
+  roles.left = {roles.joint(Role::left_thigh), roles.joint(Role::left_shank),
+                roles.joint(Role::left_foot), roles.joint(Role::left_toes)};
+  roles.right = {roles.joint(Role::right_thigh), roles.joint(Role::right_shank),
+                 roles.joint(Role::right_foot), roles.joint(Role::right_toes)};
+  choose_hips(skeleton, roles, said);
+
+  roles.in_leg.assign(skeleton.joints.size(), false);
+  for (const int thigh : {roles.left.thigh, roles.right.thigh}) {
+    if (thigh < 0) continue;
+    for (int joint = 0; joint < skeleton.size(); ++joint)
+      if (joint == thigh || descends(skeleton, joint, thigh)) roles.in_leg[joint] = true;
+    if (roles.hips < 0 || !descends(skeleton, thigh, roles.hips)) continue;
+    for (int joint = skeleton.joints[thigh].parent; joint != roles.hips;
+         joint = skeleton.joints[joint].parent)
+      if (roles.of_joint[joint] == Role::none) roles.in_leg[joint] = true;
+  }
+  return roles;
+}
+
+std::vector<std::string> names_not_in(const Skeleton& skeleton, const RoleTable& table) {
+  std::vector<std::string> names;
+  for (const auto& entry : table)
+    if (skeleton.find(entry.first) < 0) names.push_back(entry.first);
+  return names;
+}
+
+RoleTable parse_role_table(std::string_view text, const std::string& name) {
+  const auto trimmed = [](std::string_view part) {
+    const std::size_t begin = part.find_first_not_of(" \t\r");
+    return begin == std::string_view::npos
+               ? std::string_view{}
+               : part.substr(begin, part.find_last_not_of(" \t\r") - begin + 1);
+  };
+  RoleTable table;
+  if (text.starts_with("\xEF\xBB\xBF")) text.remove_prefix(3);
+  for (int number = 1; !text.empty(); ++number) {
+    const std::size_t end = text.find('\n');
+    std::string_view line = text.substr(0, end);
+    text = end == std::string_view::npos ? std::string_view{} : text.substr(end + 1);
+    line = trimmed(line.substr(0, line.find('#')));
+    if (line.empty()) continue;
+    const std::string here = name + ":" + std::to_string(number) + ": ";
+    const std::size_t equals = line.rfind('=');
+    if (equals == std::string_view::npos)
+      throw Error(here + "expected 'joint = role', found '" + std::string(line) + "'");
+    const std::string joint(trimmed(line.substr(0, equals)));
+    const std::string_view role = trimmed(line.substr(equals + 1));
+    if (joint.empty()) throw Error(here + "expected a joint's name before '=', found none");
+    const std::optional<Role> known = role_from_name(role);
+    if (!known) {
+      std::string all;
+      for (const auto& entry : kRoleNames)
+        all += (all.empty() ? "" : ", ") + std::string(entry.second);
+      throw Error(here + "expected a role (" + all + "), found '" + std::string(role) + "'");
+    }
+    if (!table.emplace(joint, *known).second)
+      throw Error(here + "expected each joint once, found '" + joint + "' again");
+  }
+  return table;
+}
+
+RoleTable read_role_table(const std::filesystem::path& path) {
+  std::ifstream stream(path, std::ios::binary);
+  if (!stream || std::filesystem::is_directory(path))
+    throw Error(path.string() + ": expected a table of roles, cannot open it");
+  const std::string text{std::istreambuf_iterator<char>(stream), {}};
+  return parse_role_table(text, path.string());
+}
+
+}  // namespace gait
