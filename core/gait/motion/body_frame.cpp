@@ -4,6 +4,7 @@
 #include <charconv>
 #include <cmath>
 #include <numbers>
+#include <span>
 #include <utility>
 
 #include "gait/error.h"
@@ -17,7 +18,9 @@ struct Unit {
   double metres;
 };
 
-// What a file may be in. MakeHuman writes decimetres; CMU's own files are in units of 1/0.45 inch.
+// What a file may be in, the usual ones first. MakeHuman writes decimetres; CMU's own files are in
+// units of 1/0.45 inch.
+constexpr std::size_t kUsualUnits = 4;
 constexpr std::array<Unit, 7> kUnits{{{"m", 1},
                                       {"cm", 0.01},
                                       {"mm", 0.001},
@@ -28,9 +31,9 @@ constexpr std::array<Unit, 7> kUnits{{{"m", 1},
 
 // Thigh and shank of a grown person (m); the ranges of the units above do not overlap within it.
 constexpr double kUsualLeg = 0.83, kShortestLeg = 0.62, kLongestLeg = 1.1;
-// Standing height over leg length (Drillis and Contini 1966: 0.491 of the height; hips to knee to
-// ankle), for rigs whose legs have no names.
-constexpr double kHeightOverLeg = 2.0;
+// Height over thigh and shank, 0.245 and 0.246 of it (Drillis and Contini 1966): for rigs whose
+// legs have no names.
+constexpr double kHeightOverLeg = 2.04;
 
 struct Measured {
   Eigen::Vector3d feet_to_head = Eigen::Vector3d::Zero();  // mean over frames, file's unit
@@ -64,7 +67,7 @@ Measured measure(const Clip& clip, const JointRoles& roles) {
 
 // Turns the given axis (0, 1, 2; sign +1 or -1) onto +Y by the shortest way.
 Eigen::Quaterniond onto_y(int axis, double sign) {
-  if (axis == 1 && sign < 0)  // half a turn about the vertical keeps nothing upside down: about X
+  if (axis == 1 && sign < 0)  // half a turn, for which no axis is the nearest: X
     return Eigen::Quaterniond(0, 1, 0, 0);
   return Eigen::Quaterniond::FromTwoVectors(sign * Eigen::Vector3d::Unit(axis),
                                             Eigen::Vector3d::UnitY());
@@ -100,7 +103,7 @@ void guess_up(const Clip& clip, const Eigen::Vector3d& feet_to_head, BodyFrame& 
                              "; taking that as up (say --up x, y or z)");
 }
 
-// Height of the rest pose along its longest direction, for skeletons without known legs.
+// The first pose's longest side, for skeletons without known legs.
 double extent(const Clip& clip) {
   if (clip.frames() == 0) return 0;
   const WorldPoses world = world_poses(clip);
@@ -129,7 +132,7 @@ void guess_unit(const Clip& clip, double leg, BodyFrame& frame) {
   }
   const Unit* best = nullptr;
   double least = INFINITY;
-  for (const Unit& unit : kUnits)
+  for (const Unit& unit : std::span(kUnits).first(legs_known ? kUnits.size() : kUsualUnits))
     if (const double far = std::abs(std::log(leg * unit.metres / kUsualLeg)); far < least) {
       least = far;
       best = &unit;

@@ -24,15 +24,18 @@ struct BodyFrameOverride {
   std::optional<char> up_axis;  // 'x', 'y' or 'z'
 };
 
-// "m", "cm", "mm", "in", "ft" or a number: metres per unit. Throws Error for others.
+// "m", "cm", "mm", "dm", "in", "ft", "cmu" (1/0.45 inch, in which CMU wrote its files) or a number:
+// metres per unit. Throws Error for others.
 double metres_per_unit_named(std::string_view unit);
 
 // Guesses both: up is the axis from feet to head over all frames; the unit follows from the leg's
-// length (thigh + shank by forward kinematics) being near a person's.
+// length (thigh + shank by forward kinematics) being near a person's, 0.62 to 1.1 m. Warns where
+// the body leans by more than 30 degrees, no unit fits, or the joints to tell by are not known.
 BodyFrame guess_body_frame(const Clip& clip, const JointRoles& roles,
                            const BodyFrameOverride& said = {});
 
-// The clip in metres with Y up: roots are turned and everything is scaled.
+// The clip in metres with Y up: roots are turned and everything is scaled. Other joints keep their
+// rotations, and their offsets keep the directions of the file.
 Clip in_metres_y_up(const Clip& clip, const BodyFrame& frame);
 
 // The root rotation and translation of a clip in metres, back in the file's frame.

@@ -1,8 +1,8 @@
 #include "gait/motion/bvh_cursor.h"
 
+#include <algorithm>
 #include <charconv>
 #include <cmath>
-#include <cstdlib>
 
 namespace gait {
 namespace {
@@ -127,8 +127,11 @@ double BvhCursor::number(std::string_view what) {
   double value = 0;
   const auto [stop, error] = std::from_chars(begin, end, value);
   const bool whole = stop == end || is_space(*stop) || is_brace(*stop);
-  if (error == std::errc::result_out_of_range && whole)
-    value = std::strtod(std::string(begin, stop).c_str(), nullptr);  // 0 or infinite
+  if (error == std::errc::result_out_of_range && whole)  // too small for a double, or too large
+    value = std::string_view(begin, stop).find("e-") != std::string_view::npos ||
+                    std::string_view(begin, stop).find("E-") != std::string_view::npos
+                ? 0
+                : INFINITY;
   else if (error != std::errc{} || !whole)
     fail("expected a number (" + std::string(what) + "), found " + found(peek()));
   if (!(std::abs(value) <= kLargestNumber))

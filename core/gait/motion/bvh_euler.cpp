@@ -60,7 +60,8 @@ double distance(const Angles& a, const Angles& b) {
   return std::abs(a[0] - b[0]) + std::abs(a[1] - b[1]) + std::abs(a[2] - b[2]);
 }
 
-// Angles a, b, c of order i, j, i nearest to `before`. `k` is the third axis.
+// Angles a, b, c of order i, j, i nearest to `before`, of both solutions: a, b, c and a + 180 deg,
+// -b, c + 180 deg. `k` is the third axis.
 Angles nearest_proper_angles(const Eigen::Quaterniond& q, int i, int j, int k, double e,
                              const Angles& before) {
   const double cosine = std::hypot(q.w(), q.coeffs()[i]);
@@ -74,13 +75,11 @@ Angles nearest_proper_angles(const Eigen::Quaterniond& q, int i, int j, int k, d
     Angles angles;
     angles[1] = nearest_turn(other ? -b : b, before[1]);
     if (sine < kLocked) {  // only a + c is known: share its change
-      // b on the far side of a whole turn negates the quaternion, which shifts the sum by 2 pi.
       const double change = to_half_turn(sum - before[0] - before[2]) / 2;
       angles[0] = before[0] + change;
       angles[2] = before[2] + change;
     } else if (cosine < kLocked) {  // only a - c is known
-      const double known = other ? difference + 2 * kPi : difference;
-      const double change = to_half_turn(known - before[0] + before[2]) / 2;
+      const double change = to_half_turn(difference - before[0] + before[2]) / 2;
       angles[0] = before[0] + change;
       angles[2] = before[2] - change;
     } else {
@@ -126,9 +125,9 @@ void set_rotation(BvhFile& file, int frame, int joint, const Eigen::Quaterniond&
   if (frame > 0)
     for (int n = 0; n < 3; ++n) before[n] = file.values(frame - 1, columns.rotation[n]) * kPi / 180;
   const Angles angles = nearest_angles(rotation.normalized(), columns.axes, before);
-  // A microdegree is finer than any reader asks for and keeps the text short.
+  // A microdegree is finer than any reader asks for and keeps the text short; + 0 turns -0 to 0.
   for (int n = 0; n < 3; ++n)
-    file.values(frame, columns.rotation[n]) = std::round(angles[n] * 180 / kPi * 1e6) / 1e6;
+    file.values(frame, columns.rotation[n]) = std::round(angles[n] * 180 / kPi * 1e6) / 1e6 + 0.0;
 }
 
 void set_translation(BvhFile& file, int frame, int joint, const Eigen::Vector3d& translation) {

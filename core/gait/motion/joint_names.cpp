@@ -145,6 +145,8 @@ Name name_meant(std::string_view joint) {
   for (const std::string_view segment : {"L5", "L3", "T12", "T8"})
     if (joint == segment) return {Side::none, Part::spine};
 
+  // MakeHuman puts a mount before some joints, named as the joint after two underscores.
+  if (joint.starts_with("__")) return {};
   std::vector<Word> words = words_of(joint);
   if (std::ranges::any_of(words, [](const Word& word) { return is_helper(word.text); })) return {};
   Side side = Side::none;

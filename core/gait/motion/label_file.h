@@ -1,0 +1,55 @@
+// Label files: which label holds from when to when, in HTK's and Audacity's form.
+//
+// HTK:      `0 5600000 right`, times as whole numbers of 100 ns, separated by spaces.
+// Audacity: `0.000000<tab>0.560000<tab>right`, times in seconds, separated by tabs.
+#pragma once
+
+#include <filesystem>
+#include <string>
+#include <string_view>
+#include <vector>
+
+#include "gait/motion/steps.h"
+
+namespace gait {
+
+struct LabelSegment {
+  double start = 0, end = 0;  // seconds
+  std::string label;
+
+  friend bool operator==(const LabelSegment&, const LabelSegment&) = default;
+};
+
+enum class LabelForm { htk, audacity };
+
+struct LabelFile {
+  LabelForm form = LabelForm::audacity;
+  std::vector<LabelSegment> segments;  // in the file's order
+};
+
+// Reads a label file, of either form: whole numbers with no tab between them are HTK's. Throws
+// Error with file and line where a line is not `start end label`, times are negative, not finite or
+// run backwards, or forms mix. HTK's scores after the label and Audacity's lines of frequencies
+// (they start with a backslash) are passed over. An empty file has no segments.
+LabelFile read_labels(const std::filesystem::path& path);
+LabelFile parse_labels(std::string_view text, const std::string& name);
+
+// Writes them, to a temporary file first, then renamed. HTK keeps 100 ns, Audacity a microsecond.
+// Throws Error when the file cannot be written, or a label cannot be held: empty, with a line end,
+// or with white space in HTK's form.
+void write_labels(const std::vector<LabelSegment>& segments, LabelForm form,
+                  const std::filesystem::path& path);
+std::string labels_text(const std::vector<LabelSegment>& segments, LabelForm form);
+
+// Steps as labels: `right` or `left` from one foot's contact to the other's, in seconds from frame
+// 0.
+std::vector<LabelSegment> labels_from_contacts(const std::vector<Contact>& contacts,
+                                               double frame_rate);
+
+// And back: a contact at the start of each step, and one of the other foot where a step ends that
+// no other follows. Labels: right, left, r, l in any case; others are no steps. Frames are rounded
+// to the nearest. Throws Error naming the time where steps overlap or a foot steps twice in
+// succession.
+std::vector<Contact> contacts_from_labels(std::vector<LabelSegment> segments, double frame_rate);
+
+}  // namespace gait
