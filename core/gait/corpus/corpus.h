@@ -1,0 +1,46 @@
+// The built-in corpus: synthetic walks of one 18-joint body in T10's eleven styles, with as many
+// cycles of each as its Table 1, in several passages as an actor walking back and forth gives.
+//
+// Drawn from the mean human gait (mean_gait.h) and a list of changes per style (walk_styles.cpp).
+// Nobody walked them: they are a demonstration, and a source of exact truth for tests.
+#pragma once
+
+#include <cstdint>
+#include <span>
+#include <string>
+#include <string_view>
+#include <vector>
+
+#include "gait/corpus/synthetic_walk.h"
+#include "gait/motion/clip.h"
+#include "gait/motion/steps.h"
+
+namespace gait {
+
+// What to print wherever these walks are shown or a model made from them is named.
+inline constexpr std::string_view corpus_notice =
+    "synthetic walks: drawn from the mean human gait and a list of changes per style, not captured "
+    "from anybody";
+
+struct CorpusWalk {
+  Clip clip;                      // metres, Y up, along +Z, ground at 0; name walk_STYLE_TAKE
+  std::vector<Contact> contacts;  // first frame at or after the moment the foot meets the ground
+  std::vector<double> phase;  // per frame, 0..1: 0 at right contact, 0.5 at left, linear between
+  std::string style;
+  int take = 1;  // from 1
+};
+
+// The walk of a plan at any frame rate: the same motion, sampled from the same first moment.
+CorpusWalk make_walk(const WalkPlan& plan, double frame_rate = 30);
+
+// All walks of the corpus, style by style in corpus_styles' order, take by take. The same seed
+// gives the same walks, another seed another actor's day.
+std::vector<CorpusWalk> make_corpus(std::uint64_t seed = 1, double frame_rate = 30);
+
+// How many cycles each take of a style has: passages of four to six, together `cycles`.
+std::vector<int> cycles_of_takes(int cycles);
+
+// "walk_sad_3.bvh"
+std::string corpus_file_name(const CorpusWalk& walk);
+
+}  // namespace gait
