@@ -1,0 +1,37 @@
+// Reading clips for a subcommand: the file, its meaning in metres with Y up, and its roles, with
+// the flags that settle what a file leaves open.
+#pragma once
+
+#include <CLI/CLI.hpp>
+#include <filesystem>
+#include <string>
+
+#include "gait/motion/body_frame.h"
+#include "gait/motion/bvh.h"
+#include "gait/motion/clip.h"
+#include "gait/motion/joint_roles.h"
+
+namespace gait::tool {
+
+// What the user says instead of the guess; empty: guessed.
+struct ClipReading {
+  std::string unit;   // --unit
+  std::string up;     // --up
+  std::string roles;  // --roles, a file
+};
+
+// Adds --unit, --up and --roles, checked while the command line is read.
+void add_clip_reading(CLI::App& command, ClipReading& reading);
+
+struct ReadClip {
+  BvhFile file;  // as it is written
+  Clip clip;     // metres, Y up
+  JointRoles roles;
+  BodyFrame frame;
+};
+
+// Reads one BVH file. Warnings go to stderr as `gait COMMAND: warning: ...`. Throws Error.
+ReadClip read_clip(const std::filesystem::path& path, const ClipReading& reading,
+                   const std::string& command);
+
+}  // namespace gait::tool

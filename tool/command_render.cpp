@@ -1,0 +1,139 @@
+// gait render: clips as a film strip of stick figures, or as a film.
+#include <algorithm>
+#include <cctype>
+#include <charconv>
+#include <cmath>
+#include <filesystem>
+#include <memory>
+#include <string>
+#include <vector>
+
+#include "canvas.h"
+#include "clip_reader.h"
+#include "commands.h"
+#include "film.h"
+#include "film_strip.h"
+#include "gait/error.h"
+#include "output_file.h"
+#include "progress.h"
+#include "walk_view.h"
+
+namespace gait::tool {
+
+namespace {
+
+struct RenderOptions {
+  std::vector<std::string> clips;
+  std::string output;
+  int strobe = 0;
+  std::string compare;
+  std::string view = "side";
+  ClipReading reading;
+};
+
+// Degrees around the walker: 0 in front, 90 at the right side. NaN for what is neither.
+double camera_degrees(const std::string& view) {
+  if (view == "side") return 90;
+  if (view == "front") return 0;
+  double degrees = 0;
+  const char* end = view.data() + view.size();
+  const auto [stop, error] = std::from_chars(view.data(), end, degrees);
+  return error == std::errc() && stop == end && std::abs(degrees) <= 360 ? degrees : NAN;
+}
+
+std::string view_fault(const std::string& view) {
+  return std::isnan(camera_degrees(view))
+             ? "'" + view + "' is no view: side, front or degrees from -360 to 360"
+             : "";
+}
+
+std::string ending_of(const std::string& path) {
+  std::string ending = std::filesystem::path(path).extension().string();
+  std::transform(ending.begin(), ending.end(), ending.begin(),
+                 [](unsigned char c) { return static_cast<char>(std::tolower(c)); });
+  return ending;
+}
+
+WalkView view_clip(const std::string& path, const RenderOptions& options) {
+  const ReadClip read = read_clip(path, options.reading, "render");
+  if (read.clip.frames() == 0) throw Error(path + ": has no frames, nothing to draw");
+  WalkView view = view_walk(read.clip, read.roles, camera_degrees(options.view));
+  view.name = std::filesystem::path(path).stem().string();
+  return view;
+}
+
+void draw_strip(const std::vector<WalkView>& views, const WalkView* compared, int strobe,
+                const std::string& path, bool svg) {
+  std::vector<StripRow> rows;
+  for (const WalkView& view : views) rows.push_back(lay_out_row(view, compared, strobe));
+  const FilmStripPage page = lay_out_page(std::move(rows));
+  OutputFile output(path);
+  if (svg) {
+    Canvas canvas = Canvas::of_svg(output.part(), page.width, page.height);
+    draw_page(canvas, page);
+    canvas.finish(path);
+  } else {
+    Canvas canvas = Canvas::of_pixels(page.width, page.height);
+    draw_page(canvas, page);
+    canvas.write_png(output.part());
+  }
+  output.keep();
+}
+
+void render(const RenderOptions& options) {
+  const std::string ending = ending_of(options.output);
+  if (ending != ".png" && ending != ".svg" && ending != ".mp4")
+    throw UsageError("-o " + options.output + ": expected a name that ends in .png, .svg or .mp4");
+  if (!options.compare.empty() && options.clips.size() != 1)
+    throw UsageError("--compare goes with one clip, " + std::to_string(options.clips.size()) +
+                     " were given");
+
+  std::vector<WalkView> views;
+  for (const std::string& clip : options.clips) views.push_back(view_clip(clip, options));
+  std::unique_ptr<WalkView> compared;
+  if (!options.compare.empty())
+    compared = std::make_unique<WalkView>(view_clip(options.compare, options));
+
+  if (ending == ".mp4") {
+    Progress progress("gait render: drawing the film");
+    write_film(views, compared.get(), options.output, [&](double share) { progress.show(share); });
+  } else {
+    draw_strip(views, compared.get(), options.strobe, options.output, ending == ".svg");
+  }
+}
+
+}  // namespace
+
+Command render_command(CLI::App& program) {
+  const auto options = std::make_shared<RenderOptions>();
+  CLI::App* app =
+      program.add_subcommand("render", "Draw clips as a film strip of stick figures, or as a film");
+  app->add_option("CLIP", options->clips, "BVH files, one row each")->required()->type_name("");
+  app->add_option("-o,--output", options->output,
+                  "What to write: a picture (.png, .svg) or, where ffmpeg is, a film (.mp4)")
+      ->required()
+      ->type_name("FILE");
+  app->add_option("--strobe", options->strobe,
+                  "Figures per row (about 12, as the walk's length asks)")
+      ->check(CLI::Range(1, 200))
+      ->default_str("")
+      ->type_name("N");
+  app->add_option("--compare", options->compare,
+                  "Another clip, drawn in grey behind the same moments, hips on hips")
+      ->type_name("BVH");
+  app->add_option("--view", options->view,
+                  "Camera: side, front, or degrees around the walker (0 front, 90 right side)")
+      ->check(CLI::Validator(view_fault, ""))
+      ->type_name("VIEW");
+  add_clip_reading(*app, options->reading);
+  app->footer(
+      "A walk's figures stand where they were. One that stays on the spot is spread by time.\n\n"
+      "Examples:\n"
+      "  gait render walk.bvh -o walk.png\n"
+      "  gait render proud.bvh sad.bvh drunk.bvh -o styles.svg --strobe 9\n"
+      "  gait render captured.bvh --compare reconstructed.bvh -o both.png\n"
+      "  gait render walk.bvh --view 45 -o walk.mp4");
+  return {app, [options] { render(*options); }};
+}
+
+}  // namespace gait::tool
