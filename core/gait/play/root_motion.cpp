@@ -1,0 +1,198 @@
+#include "gait/play/root_motion.h"
+
+#include <algorithm>
+#include <cmath>
+#include <limits>
+#include <string>
+
+#include "gait/error.h"
+#include "gait/motion/rotation.h"
+
+namespace gait {
+namespace {
+
+// Found on 142 captured walks at 30, 60 and 120 fps, forward and backward: every value may change
+// by half without a clip's path leaving 0.92 to 1.05 of the captured one.
+constexpr float softness = 0.06f;             // m/s: points that differ by less share the pin
+constexpr float cost_of_height = 4.0f;        // m/s per metre above the lowest point
+constexpr float cost_of_disagreement = 0.5f;  // per m/s against the root's motion so far
+constexpr float height_scale = 0.015f;        // m: how sharply height alone tells the direction
+constexpr float walking_at_all = 0.1f;        // m/s: slower travel has no direction to speak of
+constexpr float strongest_push = 30.0f;  // m/s²: hips in walks stay under 20, captured toes do not
+constexpr double speed_seconds = 0.015;
+constexpr double travel_seconds = 0.5;
+constexpr double height_seconds = 0.1 / 3;  // 95 % of a height error is gone after 100 ms
+constexpr double same_point = 0.005;        // m
+
+float gain(double frame_rate, double seconds) {
+  return static_cast<float>(1 - std::exp(-1 / (frame_rate * seconds)));
+}
+
+Eigen::Vector3f horizontal(const Eigen::Vector3f& v) noexcept { return {v.x(), 0, v.z()}; }
+
+bool is_below(const Skeleton& skeleton, int joint, int ancestor) {
+  while (joint >= 0 && joint != ancestor) joint = skeleton.joints[joint].parent;
+  return joint == ancestor;
+}
+
+}  // namespace
+
+RootMotion::RootMotion(const Skeleton& skeleton, const JointRoles& roles, double frame_rate)
+    : joints_(skeleton.size()) {
+  if (!std::isfinite(frame_rate) || frame_rate <= 0)
+    throw Error("root motion: expected a positive frame rate, found " + std::to_string(frame_rate));
+  if (!roles.has_legs())
+    throw Error(
+        "root motion: expected hips and thigh, shank and foot of both legs; "
+        "some of these roles have no joint");
+  for (const Leg* leg : {&roles.right, &roles.left})
+    if (!is_below(skeleton, leg->foot, roles.hips))
+      throw Error("root motion: expected joint '" + skeleton.joints[leg->foot].name +
+                  "' below the hips '" + skeleton.joints[roles.hips].name + "'");
+  period_ = static_cast<float>(1 / frame_rate);
+  speed_gain_ = gain(frame_rate, speed_seconds);
+  travel_gain_ = gain(frame_rate, travel_seconds);
+  height_gain_ = gain(frame_rate, height_seconds);
+  add_points(skeleton, roles.hips, roles.right.foot, Foot::right);
+  add_points(skeleton, roles.hips, roles.left.foot, Foot::left);
+  reset();
+}
+
+int RootMotion::add_link(const Skeleton& skeleton, int joint, int hips) {
+  for (std::size_t i = 0; i < links_.size(); ++i)
+    if (links_[i].joint == joint) return static_cast<int>(i);
+  const int parent = joint == hips ? -1 : add_link(skeleton, skeleton.joints[joint].parent, hips);
+  Link link;
+  link.joint = joint;
+  link.parent = parent;
+  link.offset = skeleton.joints[joint].offset.cast<float>();
+  links_.push_back(link);
+  return static_cast<int>(links_.size()) - 1;
+}
+
+void RootMotion::add_points(const Skeleton& skeleton, int hips, int foot_joint, Foot foot) {
+  const auto add = [&](int joint, const Eigen::Vector3d& offset) {
+    Point point;
+    point.foot = foot;
+    point.link = add_link(skeleton, joint, hips);
+    point.offset = offset.cast<float>();
+    points_.push_back(point);
+  };
+  for (int joint = foot_joint; joint < skeleton.size(); ++joint) {
+    if (!is_below(skeleton, joint, foot_joint)) continue;
+    if (joint == foot_joint || skeleton.joints[joint].offset.norm() > same_point)
+      add(joint, Eigen::Vector3d::Zero());
+    for (const Eigen::Vector3d& tip : skeleton.joints[joint].tips)
+      if (tip.norm() > same_point) add(joint, tip);
+  }
+}
+
+void RootMotion::reset(const Eigen::Vector3f& place) noexcept {
+  frames_ = 0;
+  position_ = place.cast<double>();
+  velocity_.setZero();
+  travel_.setZero();
+  for (Point& point : points_) {
+    point.place.setZero();
+    point.smoothed.setZero();
+    point.weight = 0;
+  }
+}
+
+Eigen::Vector3f RootMotion::advance(std::span<const Eigen::Quaternionf> pose,
+                                    float heading) noexcept {
+  if (!place_points(pose, heading)) return position();
+  if (frames_++ == 0) {
+    position_.y() = -lowest_;
+    return position();
+  }
+  update_speeds();
+  update_travel();
+  weigh_points();
+  move();
+  return position();
+}
+
+// False, with nothing changed that counts, when the pose is not one.
+bool RootMotion::place_points(std::span<const Eigen::Quaternionf> pose, float heading) noexcept {
+  if (pose.size() != static_cast<std::size_t>(joints_) || !std::isfinite(heading)) return false;
+  for (const Link& link : links_)
+    if (!pose[link.joint].coeffs().allFinite()) return false;
+
+  for (Link& link : links_) {
+    if (link.parent < 0) {
+      link.rotation = about_vertical(heading) * pose[link.joint];
+      continue;
+    }
+    const Link& parent = links_[link.parent];
+    link.rotation = parent.rotation * pose[link.joint];
+    link.place = parent.place + parent.rotation * link.offset;
+  }
+  lowest_ = std::numeric_limits<float>::max();
+  for (Point& point : points_) {
+    point.before = point.place;
+    point.place = links_[point.link].place + links_[point.link].rotation * point.offset;
+    lowest_ = std::min(lowest_, point.place.y());
+  }
+  return true;
+}
+
+void RootMotion::update_speeds() noexcept {
+  const float share = std::max(speed_gain_, 1 / static_cast<float>(frames_ - 1));
+  for (Point& point : points_) {
+    point.speed = (point.place - point.before) / period_;
+    point.smoothed += share * (point.speed - point.smoothed);
+  }
+}
+
+// Where the walk goes by height alone: too coarse for the path, but it knows forward from backward.
+void RootMotion::update_travel() noexcept {
+  Eigen::Vector3f sum = Eigen::Vector3f::Zero();
+  float weights = 0;
+  for (const Point& point : points_) {
+    const float weight = std::exp((lowest_ - point.place.y()) / height_scale);
+    sum -= weight * horizontal(point.speed);
+    weights += weight;
+  }
+  const float share = std::max(travel_gain_, 1 / static_cast<float>(frames_ - 1));
+  travel_ += share * (sum / weights - travel_);
+}
+
+void RootMotion::weigh_points() noexcept {
+  const Eigen::Vector3f direction =
+      travel_ * (travel_.norm() / (travel_.squaredNorm() + walking_at_all * walking_at_all));
+  float best = std::numeric_limits<float>::lowest();
+  for (Point& point : points_) {  // the weight holds the score until the best one is known
+    point.weight = -point.smoothed.dot(direction) - cost_of_height * (point.place.y() - lowest_) -
+                   cost_of_disagreement * horizontal(point.smoothed + velocity_).norm();
+    best = std::max(best, point.weight);
+  }
+  float sum = 0;
+  for (Point& point : points_) {
+    point.weight = std::exp((point.weight - best) / softness);
+    sum += point.weight;
+  }
+  for (Point& point : points_) point.weight /= sum;
+}
+
+void RootMotion::move() noexcept {
+  Eigen::Vector3f wanted = Eigen::Vector3f::Zero();
+  for (const Point& point : points_) wanted -= point.weight * point.speed;
+  Eigen::Vector3f change = wanted - velocity_;
+  const float limit = strongest_push * period_, along = horizontal(change).norm();
+  // The first speed along the ground comes from nowhere: there is nothing to be gentle with.
+  if (frames_ > 2 && along > limit) change.x() *= limit / along, change.z() *= limit / along;
+  change.y() = std::clamp(change.y(), -limit, limit);
+  velocity_ += change;
+  position_ += (velocity_ * period_).cast<double>();
+  position_.y() -= height_gain_ * (position_.y() + lowest_);
+}
+
+float RootMotion::share_of(Foot foot) const noexcept {
+  float share = 0;
+  for (const Point& point : points_)
+    if (point.foot == foot) share += point.weight;
+  return share;
+}
+
+}  // namespace gait
