@@ -6,20 +6,21 @@
 namespace gait {
 namespace {
 
-// Shares and slopes as the mean gait's foot has them: flat 0.13 of a cycle after contact, pitched
-// most 0.18 of the swing after toe-off, falling fastest at 0.6 of the swing.
+// Shares and slopes as the mean gait's foot has them: flat 0.11 of a cycle after contact, pitched
+// most 0.17 of the swing after toe-off, falling fastest at 0.6 of the swing.
 ShapedCurve pitch_over_the_cycle(const WalkStyle& s) {
   const double swing = 1 - s.stance;
   const double rise = s.push_pitch - s.sole_pitch, push = s.stance - s.heel_rise;
   const double peak = s.push_pitch + 0.25 * rise;
   const double fall = peak - s.strike_pitch;
-  return ShapedCurve({{0, s.strike_pitch, 0},
-                      {0.13, s.sole_pitch, 0},
+  const double slap = 0.7 * (s.sole_pitch - s.strike_pitch) / 0.11;
+  return ShapedCurve({{0, s.strike_pitch, slap},
+                      {0.11, s.sole_pitch, 0},
                       {s.heel_rise, s.sole_pitch, 0},
                       {s.stance, s.push_pitch, 2.1 * rise / push},
-                      {s.stance + 0.18 * swing, peak, 0},
+                      {s.stance + 0.17 * swing, peak, 0},
                       {s.stance + 0.60 * swing, s.strike_pitch + 0.45 * fall, -1.85 * fall / swing},
-                      {1, s.strike_pitch, 0}});
+                      {1, s.strike_pitch, slap}});
 }
 
 }  // namespace
@@ -40,12 +41,13 @@ Eigen::Vector3d FootPath::ankle_over(const Footprint& print, double pitch, bool 
   return {print.x + forward * std::sin(print.yaw), up, print.z + forward * std::cos(print.yaw)};
 }
 
-// Height of the sole's lowest point over the swing: `lift` half-way, and at the end falling at the
-// style's landing speed, so that contact is a clear event.
+// Height of the sole's lowest point over the swing: highest after a third of it, as the mean gait's,
+// and at the end falling at the style's landing speed, so that contact is a clear event.
 double FootPath::clearance(double swing, double lift, double swing_seconds) const {
+  const double left = 1 - swing;
+  const double rising = swing * swing * left * left * left * left * (729.0 / 16);
   const double fall = style_.landing * swing_seconds;
-  const double p = 16 * lift - fall, q = 2 * (fall - 8 * lift);
-  return swing * swing * (1 - swing) * (p + q * swing);
+  return lift * rising + fall * swing * swing * swing * swing * left;
 }
 
 FootState FootPath::at(double cycles, double range) const {
@@ -59,7 +61,9 @@ FootState FootPath::at(double cycles, double range) const {
 
   const double swing_share = 1 - style_.stance;
   const double swing = (phase - style_.stance) / swing_share;
-  const double travelled = smooth_step(swing);
+  // As the mean gait's ankle: still under way just before it lands.
+  constexpr double landing_slope = 0.12;
+  const double travelled = swing * swing * (3 - 2 * swing - landing_slope * (1 - swing));
   // Both ends of the path are what stance gives there, so that all of it joins smoothly.
   const Eigen::Vector3d leaving = ankle_over(from, pitch, true);
   const Eigen::Vector3d landing = ankle_over(to, pitch, style_.strike_pitch >= 0);

@@ -108,6 +108,7 @@ MeanGaitCurve::MeanGaitCurve(MeanJoint joint, double speed) {
 }
 
 Eigen::Vector3d MeanGaitCurve::at(double phase) const {
+  phase += mean_gait_lead;
   Eigen::Matrix<double, 9, 1> basis;
   basis[0] = 1;
   for (int harmonic = 1; harmonic <= 4; ++harmonic) {

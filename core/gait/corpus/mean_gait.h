@@ -18,6 +18,10 @@ namespace gait {
 // limbs are their mirror image half a cycle later. Hip and ankle angles follow from the feet.
 enum class MeanJoint { hips, spine, spine1, spine2, neck, head, left_arm, left_forearm, left_knee };
 
+// The series counts phase from where the foot is farthest ahead of the hips, which comes this much
+// of a cycle before it meets the ground.
+inline constexpr double mean_gait_lead = 0.025;
+
 inline constexpr double mean_gait_slowest =
     0.96;  // the speeds the walks had, leg lengths per second
 inline constexpr double mean_gait_fastest = 2.34;
@@ -28,7 +32,7 @@ class MeanGaitCurve {
   // `speed` in leg lengths per second; outside the fitted range the nearest fitted speed is taken.
   MeanGaitCurve(MeanJoint joint, double speed);
 
-  // Rotation vector at any phase (cycles, periodic), and its mean over the cycle.
+  // Rotation vector at any phase (cycles from the right foot's touch, periodic), and its mean over the cycle.
   Eigen::Vector3d at(double phase) const;
   Eigen::Vector3d mean() const { return coefficients_.col(0); }
 

@@ -17,7 +17,7 @@ using Eigen::Vector3d;
 // Even, so that a foot's prints begin with a right one.
 constexpr int steps_before = 6, steps_after = 6;
 constexpr double mid_stance = 0.28;
-constexpr double straightest_knee = 0.07;
+constexpr double straightest_knee = 0.13;
 
 enum Bone { thigh_bone, shank_bone, foot_bone };
 constexpr int first_bone(Foot foot) { return foot == Foot::left ? 12 : 15; }

@@ -28,8 +28,8 @@ struct WalkStyle {
 
   // Speed and rhythm
   double speed = 1.5;    // leg lengths per second
-  double cadence = 1;    // times the mean gait's frequency at this speed
-  double stance = 0.63;  // share of the cycle a foot is on the ground
+  double cadence = 1.03;   // times the mean gait's frequency at this speed
+  double stance = 0.575;         // share of the cycle the ball of a foot is on the ground
   double limp = 0;       // share by which right steps are longer in time, left ones shorter
 
   // Feet
@@ -37,9 +37,9 @@ struct WalkStyle {
   double toe_out = 0.12;        // yaw of the foot, outwards
   double strike_pitch = -0.40;  // of the foot at contact; below 0 the heel comes first
   double sole_pitch = 0;        // while it bears the body; above 0 the heel stays up
-  double push_pitch = 0.85;     // at toe-off
-  double heel_rise = 0.33;      // phase of the foot's cycle at which the heel leaves the ground
-  double lift = 0.045;          // of the sole in mid-swing
+  double push_pitch = 0.80;     // at toe-off
+  double heel_rise = 0.29;      // phase of the foot's cycle at which the heel leaves the ground
+  double lift = 0.06;           // of the sole, a third into the swing
   double landing = 0.20;        // downward speed at contact, m/s
   double circle = 0;            // sideways arc of the swinging foot, outwards
 
@@ -49,7 +49,7 @@ struct WalkStyle {
   double knee_out = 0;       // yaw of the knees beyond the feet's
   double bounce = 0;         // more rise and fall of the pelvis, once a step
   double sway = 0.022;       // of the pelvis towards the standing leg
-  double pelvis_lead = 0;    // of the pelvis before its mean place between the feet
+  double pelvis_lead = 0.03;  // of the hips before the middle between the ankles, at contact
   double pelvis_turn = 1;    // times the mean gait's yaw
   double pelvis_list = 1;    // times the mean gait's roll: the hip swing
   double pelvis_tilt = 0;    // pitch
