@@ -108,7 +108,10 @@ Command render_command(CLI::App& program) {
   const auto options = std::make_shared<RenderOptions>();
   CLI::App* app =
       program.add_subcommand("render", "Draw clips as a film strip of stick figures, or as a film");
-  app->add_option("CLIP", options->clips, "BVH files, one row each")->required()->type_name("");
+  app->add_option("CLIP", options->clips, "BVH files, one row each")
+      ->required()
+      ->default_str("")
+      ->type_name("");
   app->add_option("-o,--output", options->output,
                   "What to write: a picture (.png, .svg) or, where ffmpeg is, a film (.mp4)")
       ->required()

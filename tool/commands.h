@@ -19,6 +19,8 @@ class UsageError : public std::runtime_error {
   using std::runtime_error::runtime_error;
 };
 
+Command corpus_command(CLI::App& program);
+Command label_command(CLI::App& program);
 Command render_command(CLI::App& program);
 
 }  // namespace gait::tool

@@ -83,6 +83,8 @@ int main(int argc, char** argv) {
   program.require_subcommand(1);
 
   const std::vector<Command> commands = {
+      gait::tool::corpus_command(program),
+      gait::tool::label_command(program),
       gait::tool::render_command(program),
   };
   for (const Command& command : commands)

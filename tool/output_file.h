@@ -12,8 +12,15 @@ namespace gait::tool {
 
 class OutputFile {
  public:
+  // Throws Error when there is no folder to write to, before any work is done for it.
   explicit OutputFile(std::filesystem::path path) : path_(std::move(path)), part_(path_) {
     part_ += ".part";
+    std::error_code ignored;
+    const std::filesystem::path folder = path_.parent_path();
+    if (!folder.empty() && !std::filesystem::is_directory(folder, ignored))
+      throw Error(path_.string() + ": cannot be written: there is no folder " + folder.string());
+    if (std::filesystem::is_directory(path_, ignored))
+      throw Error(path_.string() + ": cannot be written: it is a folder");
   }
   ~OutputFile() {
     std::error_code ignored;

@@ -1,0 +1,115 @@
+// gait corpus: the built-in walks as files.
+#include <cstdint>
+#include <cstdio>
+#include <filesystem>
+#include <map>
+#include <memory>
+#include <nlohmann/json.hpp>
+#include <string>
+#include <system_error>
+#include <vector>
+
+#include "commands.h"
+#include "gait/corpus/corpus.h"
+#include "gait/error.h"
+#include "gait/motion/bvh.h"
+#include "gait/motion/label_file.h"
+#include "progress.h"
+
+namespace gait::tool {
+
+namespace {
+
+struct CorpusOptions {
+  std::string folder;
+  std::uint64_t seed = 1;
+  bool json = false;
+};
+
+struct StyleCount {
+  int clips = 0, cycles = 0;
+  double seconds = 0;
+};
+
+// The library reads "-3" as a very large number.
+std::string seed_fault(const std::string& seed) {
+  return seed.find_first_not_of("0123456789") == std::string::npos
+             ? ""
+             : "expected a whole number from 0 on, found '" + seed + "'";
+}
+
+void write_walk(const CorpusWalk& walk, const std::filesystem::path& folder) {
+  const std::filesystem::path bvh = folder / corpus_file_name(walk);
+  write_bvh(bvh_from_clip(walk.clip), bvh);
+  write_labels(labels_from_contacts(walk.contacts, walk.clip.frame_rate), LabelForm::audacity,
+               std::filesystem::path(bvh).replace_extension(".txt"));
+}
+
+void corpus(const CorpusOptions& options) {
+  const std::filesystem::path folder = options.folder;
+  std::error_code failure;
+  std::filesystem::create_directories(folder, failure);
+  if (failure)
+    throw Error(options.folder + ": expected a folder to write to: " + failure.message());
+
+  const std::vector<CorpusWalk> walks = make_corpus(options.seed);
+  std::map<std::string, StyleCount> styles;
+  std::vector<std::string> order;
+  {
+    Progress progress("gait corpus: writing walks");
+    for (std::size_t i = 0; i < walks.size(); ++i) {
+      write_walk(walks[i], folder);
+      if (!styles.contains(walks[i].style)) order.push_back(walks[i].style);
+      StyleCount& style = styles[walks[i].style];
+      ++style.clips;
+      style.cycles += static_cast<int>(cycles_between(walks[i].contacts).size());
+      style.seconds += walks[i].clip.frames() / walks[i].clip.frame_rate;
+      progress.show(static_cast<double>(i + 1) / static_cast<double>(walks.size()));
+    }
+  }
+
+  if (options.json) {
+    nlohmann::ordered_json report{{"folder", options.folder},
+                                  {"seed", options.seed},
+                                  {"notice", corpus_notice},
+                                  {"styles", nlohmann::ordered_json::array()}};
+    for (const std::string& style : order)
+      report["styles"].push_back({{"style", style},
+                                  {"clips", styles[style].clips},
+                                  {"cycles", styles[style].cycles},
+                                  {"seconds", styles[style].seconds}});
+    std::puts(report.dump(2, ' ', false, nlohmann::json::error_handler_t::replace).c_str());
+    return;
+  }
+  std::printf("%-16s %6s %7s %9s\n", "style", "clips", "cycles", "seconds");
+  for (const std::string& style : order)
+    std::printf("%-16s %6d %7d %9.1f\n", style.c_str(), styles[style].clips, styles[style].cycles,
+                styles[style].seconds);
+  std::printf("%zu clips with their labels in %s: %s\n", walks.size(), options.folder.c_str(),
+              std::string(corpus_notice).c_str());
+}
+
+}  // namespace
+
+Command corpus_command(CLI::App& program) {
+  const auto options = std::make_shared<CorpusOptions>();
+  CLI::App* app = program.add_subcommand(
+      "corpus", "Write the built-in synthetic walks: eleven styles, BVH and labels");
+  app->add_option("DIR", options->folder, "Folder to write to, made when missing")
+      ->required()
+      ->default_str("")
+      ->type_name("");
+  app->add_option("--seed", options->seed, "The same seed gives the same walks")
+      ->check(CLI::Validator(seed_fault, ""))
+      ->type_name("N");
+  app->add_flag("--json", options->json, "Report as JSON");
+  app->footer(
+      "Each walk_STYLE_TAKE.bvh comes with walk_STYLE_TAKE.txt, its exact contacts in Audacity's\n"
+      "label form.\n\n"
+      "Examples:\n"
+      "  gait corpus walks\n"
+      "  gait render walks/walk_*_1.bvh -o styles.png");
+  return {app, [options] { corpus(*options); }};
+}
+
+}  // namespace gait::tool
