@@ -64,7 +64,7 @@ class RootMotion {
     Eigen::Vector3f speed = Eigen::Vector3f::Zero();  // against the hips
     // The same without the noise of single frames, for the choice only.
     Eigen::Vector3f smoothed = Eigen::Vector3f::Zero();
-    float weight = 0;  // share of the pin
+    float weight = 0, weight_before = 0;  // share of the pin
   };
 
   int add_link(const Skeleton& skeleton, int joint, int hips);
@@ -82,6 +82,7 @@ class RootMotion {
   int frames_ = 0;                                    // since the (re)start
   float lowest_ = 0;                                  // height of the lowest point against the hips
   Eigen::Vector3f travel_ = Eigen::Vector3f::Zero();  // slow velocity, by height alone
+  float walking_ = 0;  // 0 standing, 1 walking: how much travel_ is to be believed
   Eigen::Vector3f velocity_ = Eigen::Vector3f::Zero();
   Eigen::Vector3d position_ = Eigen::Vector3d::Zero();  // double: an hour's walk is kilometres
 };
