@@ -177,10 +177,12 @@ BodyFrame guess_body_frame(const Clip& clip, const JointRoles& roles,
   } else {
     guess_up(clip, measured.feet_to_head, frame);
   }
-  if (said.metres_per_unit)
+  if (!said.metres_per_unit)
+    guess_unit(clip, measured.leg, frame);
+  else if (*said.metres_per_unit > 0)
     frame.metres_per_unit = *said.metres_per_unit;
   else
-    guess_unit(clip, measured.leg, frame);
+    throw Error("expected metres per unit above zero, found " + number_text(*said.metres_per_unit));
   return frame;
 }
 
