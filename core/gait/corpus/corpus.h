@@ -6,6 +6,7 @@
 #pragma once
 
 #include <cstdint>
+#include <filesystem>
 #include <span>
 #include <string>
 #include <string_view>
@@ -42,5 +43,11 @@ std::vector<int> cycles_of_takes(int cycles);
 
 // "walk_sad_3.bvh"
 std::string corpus_file_name(const CorpusWalk& walk);
+
+// Writes the walks as BVH files, in centimetres as most programs expect, and beside each an
+// Audacity label file of its steps (walk_sad_3.txt). Makes the folder. Returns the paths of the BVH
+// files. Throws Error when something cannot be written.
+std::vector<std::filesystem::path> write_corpus(const std::filesystem::path& folder,
+                                                std::span<const CorpusWalk> walks);
 
 }  // namespace gait

@@ -6,6 +6,11 @@
 namespace gait {
 namespace {
 
+constexpr double flat_from = 0.11;  // phase
+
+// Pitch per cycle as the foot touches: it falls on its sole.
+double touch_slope(const WalkStyle& s) { return 0.7 * (s.sole_pitch - s.strike_pitch) / flat_from; }
+
 // Shares and slopes as the mean gait's foot has them: flat 0.11 of a cycle after contact, pitched
 // most 0.17 of the swing after toe-off, falling fastest at 0.6 of the swing.
 ShapedCurve pitch_over_the_cycle(const WalkStyle& s) {
@@ -13,14 +18,13 @@ ShapedCurve pitch_over_the_cycle(const WalkStyle& s) {
   const double rise = s.push_pitch - s.sole_pitch, push = s.stance - s.heel_rise;
   const double peak = s.push_pitch + 0.25 * rise;
   const double fall = peak - s.strike_pitch;
-  const double slap = 0.7 * (s.sole_pitch - s.strike_pitch) / 0.11;
-  return ShapedCurve({{0, s.strike_pitch, slap},
-                      {0.11, s.sole_pitch, 0},
+  return ShapedCurve({{0, s.strike_pitch, touch_slope(s)},
+                      {flat_from, s.sole_pitch, 0},
                       {s.heel_rise, s.sole_pitch, 0},
                       {s.stance, s.push_pitch, 2.1 * rise / push},
                       {s.stance + 0.17 * swing, peak, 0},
                       {s.stance + 0.60 * swing, s.strike_pitch + 0.45 * fall, -1.85 * fall / swing},
-                      {1, s.strike_pitch, slap}});
+                      {1, s.strike_pitch, touch_slope(s)}});
 }
 
 }  // namespace
@@ -41,8 +45,8 @@ Eigen::Vector3d FootPath::ankle_over(const Footprint& print, double pitch, bool 
   return {print.x + forward * std::sin(print.yaw), up, print.z + forward * std::cos(print.yaw)};
 }
 
-// Height of the sole's lowest point over the swing: highest after a third of it, as the mean gait's,
-// and at the end falling at the style's landing speed, so that contact is a clear event.
+// Height of the sole's lowest point over the swing: highest after a third of it, as the mean
+// gait's, and at the end falling at the style's landing speed, so that contact is a clear event.
 double FootPath::clearance(double swing, double lift, double swing_seconds) const {
   const double left = 1 - swing;
   const double rising = swing * swing * left * left * left * left * (729.0 / 16);
@@ -61,12 +65,17 @@ FootState FootPath::at(double cycles, double range) const {
 
   const double swing_share = 1 - style_.stance;
   const double swing = (phase - style_.stance) / swing_share;
-  // As the mean gait's ankle: still under way just before it lands.
-  constexpr double landing_slope = 0.12;
+  // The ankle is still under way as the foot lands, rolling included, at nine tenths of the body's
+  // speed: so it is farthest ahead of the hips some 10 ms before it touches, as a person's is.
+  const bool ball_first = style_.strike_pitch >= 0;
+  const double pivot = ball_first ? sole_.ball : -sole_.heel;
+  const double rolling = touch_slope(style_) * (sole_.ankle_height * std::cos(style_.strike_pitch) +
+                                                pivot * std::sin(style_.strike_pitch));
+  const double landing_slope = swing_share * (0.9 - rolling / (to.z - from.z));
   const double travelled = swing * swing * (3 - 2 * swing - landing_slope * (1 - swing));
   // Both ends of the path are what stance gives there, so that all of it joins smoothly.
   const Eigen::Vector3d leaving = ankle_over(from, pitch, true);
-  const Eigen::Vector3d landing = ankle_over(to, pitch, style_.strike_pitch >= 0);
+  const Eigen::Vector3d landing = ankle_over(to, pitch, ball_first);
   Eigen::Vector3d ankle = leaving + travelled * (landing - leaving);
   // The lower of heel and ball bears the clearance; in mid-swing one takes over from the other
   // smoothly, always at or above the larger of the two.

@@ -20,7 +20,7 @@ enum class MeanJoint { hips, spine, spine1, spine2, neck, head, left_arm, left_f
 
 // The series counts phase from where the foot is farthest ahead of the hips, which comes this much
 // of a cycle before it meets the ground.
-inline constexpr double mean_gait_lead = 0.025;
+inline constexpr double mean_gait_lead = 0.012;
 
 inline constexpr double mean_gait_slowest =
     0.96;  // the speeds the walks had, leg lengths per second
@@ -32,7 +32,8 @@ class MeanGaitCurve {
   // `speed` in leg lengths per second; outside the fitted range the nearest fitted speed is taken.
   MeanGaitCurve(MeanJoint joint, double speed);
 
-  // Rotation vector at any phase (cycles from the right foot's touch, periodic), and its mean over the cycle.
+  // Rotation vector at any phase (cycles from the right foot's touch, periodic), and its mean over
+  // the cycle.
   Eigen::Vector3d at(double phase) const;
   Eigen::Vector3d mean() const { return coefficients_.col(0); }
 

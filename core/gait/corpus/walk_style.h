@@ -27,10 +27,10 @@ struct WalkStyle {
   int cycles = 20;  // how many the corpus holds (T10, Table 1)
 
   // Speed and rhythm
-  double speed = 1.5;    // leg lengths per second
-  double cadence = 1.03;   // times the mean gait's frequency at this speed
-  double stance = 0.575;         // share of the cycle the ball of a foot is on the ground
-  double limp = 0;       // share by which right steps are longer in time, left ones shorter
+  double speed = 1.5;     // leg lengths per second
+  double cadence = 1.03;  // times the mean gait's frequency at this speed
+  double stance = 0.575;  // share of the cycle the ball of a foot is on the ground
+  double limp = 0;        // share by which right steps are longer in time, left ones shorter
 
   // Feet
   double step_width = 0.11;     // between the lines of left and right heels; below 0 they cross
@@ -44,15 +44,15 @@ struct WalkStyle {
   double circle = 0;            // sideways arc of the swinging foot, outwards
 
   // Knees and pelvis
-  double knee_bend = -0.14;  // added to the mean gait's knee in stance
-  double knee_yield = 1;     // times its movement in stance
-  double knee_out = 0;       // yaw of the knees beyond the feet's
-  double bounce = 0;         // more rise and fall of the pelvis, once a step
-  double sway = 0.022;       // of the pelvis towards the standing leg
+  double knee_bend = -0.14;   // added to the mean gait's knee in stance
+  double knee_yield = 1;      // times its movement in stance
+  double knee_out = 0;        // yaw of the knees beyond the feet's
+  double bounce = 0;          // more rise and fall of the pelvis, once a step
+  double sway = 0.022;        // of the pelvis towards the standing leg
   double pelvis_lead = 0.03;  // of the hips before the middle between the ankles, at contact
-  double pelvis_turn = 1;    // times the mean gait's yaw
-  double pelvis_list = 1;    // times the mean gait's roll: the hip swing
-  double pelvis_tilt = 0;    // pitch
+  double pelvis_turn = 1;     // times the mean gait's yaw
+  double pelvis_list = 1;     // times the mean gait's roll: the hip swing
+  double pelvis_tilt = 0;     // pitch
 
   // Trunk and head
   double lean = 0;            // pitch of the whole trunk

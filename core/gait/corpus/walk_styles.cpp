@@ -119,9 +119,9 @@ WalkStyle afraid() {
 // Heels never down, knees high, feet set down softly, hands away from the body for balance.
 WalkStyle tiptoeing() {
   WalkStyle s{.name = "tiptoeing", .cycles = 18};
-  s.speed = 0.75, s.cadence = 0.85, s.stance = 0.59;
+  s.speed = 0.75, s.cadence = 0.94, s.stance = 0.59;
   s.step_width = 0.08, s.toe_out = 0.05, s.strike_pitch = 0.55, s.sole_pitch = 0.45;
-  s.push_pitch = 0.81, s.heel_rise = 0.34, s.lift = 0.169, s.landing = 0.06;
+  s.push_pitch = 0.81, s.heel_rise = 0.34, s.lift = 0.20, s.landing = 0.06;
   s.knee_bend = -0.16, s.knee_yield = 0.7, s.lean = 0.08, s.slump = 0.06, s.head = -0.04;
   s.trunk_turn = 0.5, s.shoulder_raise = 0.12, s.arm_swing = 0.35, s.arm_spread = 0.36;
   s.arm_forward = 0.05, s.elbow_bend = 0.75, s.arm_twist = -0.10;
@@ -137,7 +137,7 @@ WalkStyle heavy() {
   s.speed = 0.95, s.cadence = 0.86, s.stance = 0.62;
   s.step_width = 0.22, s.toe_out = 0.28, s.strike_pitch = -0.20, s.push_pitch = 0.57;
   s.lift = 0.0715, s.landing = 0.55;
-  s.knee_bend = 0.08, s.knee_yield = 1.4, s.knee_out = 0.08, s.sway = 0.055;
+  s.knee_bend = 0.12, s.knee_yield = 1.4, s.knee_out = 0.08, s.sway = 0.055;
   s.lean = 0.08, s.slump = 0.16, s.neck = -0.06, s.trunk_turn = 0.6, s.trunk_roll = 0.11;
   s.shoulder_raise = -0.05, s.shoulder_forward = 0.12, s.arm_swing = 0.6, s.arm_spread = 0.20;
   s.arm_twist = 0.2, s.elbow_bend = 0.12;

@@ -18,8 +18,8 @@ double log_sum(double a, double b) {
 
 // The row of states that a sequence passes through, and which frames each may take.
 struct Row {
-  std::vector<int> state;         // over all labels
-  std::vector<int> begin, end;    // frames [begin, end) allowed
+  std::vector<int> state;               // over all labels
+  std::vector<int> begin, end;          // frames [begin, end) allowed
   int first_frame = 0, last_frame = 0;  // frames [first, last)
 
   Row(const ObservedSequence& sequence, const StateTable& table, int slack) {
@@ -64,8 +64,7 @@ Alignment hard_alignment(const Row& row, const Eigen::MatrixXd& log_emission,
       if (log_emission(p, t) == impossible) continue;
       const double stayed = best(p, t - 1) + std::log(model.stay[row.state[p]]);
       const double came =
-          p == 0 ? impossible
-                 : best(p - 1, t - 1) + std::log1p(-model.stay[row.state[p - 1]]);
+          p == 0 ? impossible : best(p - 1, t - 1) + std::log1p(-model.stay[row.state[p - 1]]);
       moved(p, t) = came > stayed;
       best(p, t) = std::max(stayed, came) + log_emission(p, t);
     }
@@ -117,9 +116,9 @@ Alignment soft_alignment(const Row& row, const Eigen::MatrixXd& log_emission,
     for (int p = 0; p < places; ++p) {
       if (log_emission(p, t) == impossible) continue;
       const double stay = backward(p, t + 1) + log_stay[p] + log_emission(p, t + 1);
-      const double leave = p + 1 == places ? impossible
-                                           : backward(p + 1, t + 1) + log_leave[p] +
-                                                 log_emission(p + 1, t + 1);
+      const double leave = p + 1 == places
+                               ? impossible
+                               : backward(p + 1, t + 1) + log_leave[p] + log_emission(p + 1, t + 1);
       backward(p, t) = log_sum(stay, leave);
     }
   alignment.stays.assign(states, 0.0);

@@ -22,9 +22,9 @@ struct StateTable {
 };
 
 struct Occupancy {
-  int frame = 0;      // column of the sequence
-  int state = 0;      // over all labels
-  double share = 0;   // posterior of being there, 0..1
+  int frame = 0;     // column of the sequence
+  int state = 0;     // over all labels
+  double share = 0;  // posterior of being there, 0..1
 };
 
 struct Alignment {
@@ -34,8 +34,8 @@ struct Alignment {
 };
 
 struct EmissionModel {
-  std::vector<Gaussian> of_state;      // over x
-  std::vector<double> stay;            // self-transition probability
+  std::vector<Gaussian> of_state;  // over x
+  std::vector<double> stay;        // self-transition probability
 };
 
 // Each segment cut into equal parts, one per state.

@@ -24,9 +24,8 @@ class Gaussian {
   Eigen::VectorXd log_likelihoods(const Eigen::Ref<const Eigen::MatrixXd>& frames) const {
     Eigen::MatrixXd white = frames.colwise() - mean_;
     factor_.matrixL().solveInPlace(white);
-    const double constant =
-        half_log_determinant_ +
-        0.5 * static_cast<double>(mean_.size()) * std::log(2 * std::numbers::pi);
+    const double constant = half_log_determinant_ + 0.5 * static_cast<double>(mean_.size()) *
+                                                        std::log(2 * std::numbers::pi);
     return (-0.5 * white.colwise().squaredNorm().array() - constant).transpose();
   }
 

@@ -64,8 +64,8 @@ class Training {
   }
 
   void count() {
-    trained_.statistics = gather(sequences_, trained_.alignments, all_, table_.total, styles_,
-                                 options_.threads);
+    trained_.statistics =
+        gather(sequences_, trained_.alignments, all_, table_.total, styles_, options_.threads);
     std::vector<double> stays(table_.total, 0.0), leaves(table_.total, 0.0);
     for (const Alignment& alignment : trained_.alignments)
       for (int state = 0; state < table_.total; ++state) {
@@ -87,10 +87,9 @@ class Training {
     std::vector<std::optional<Gaussian>> gaussians(table_.total);
     in_parallel(table_.total, options_.threads, [&](int state) {
       const StateStatistics& s = trained_.statistics[state];
-      gaussians[state].emplace(
-          s.mean().head(inputs),
-          regularised(s.covariance().topLeftCorner(inputs, inputs), s.count,
-                      trained_.target.head(inputs), options_.regularisation));
+      gaussians[state].emplace(s.mean().head(inputs),
+                               regularised(s.covariance().topLeftCorner(inputs, inputs), s.count,
+                                           trained_.target.head(inputs), options_.regularisation));
     });
     EmissionModel emissions;
     emissions.stay = trained_.stay;

@@ -79,8 +79,9 @@ Eigen::MatrixXd raw_outputs(const Sequence& sequence, const OutputLayout& layout
 
 // Differences that hardly vary would be blown up by their own deviation.
 Scaling scaling_of(const std::vector<Sequence>& observed, bool inputs) {
-  const Moments moments = moments_of(
-      observed, [&](const Sequence& s) -> const Eigen::MatrixXd& { return inputs ? s.inputs : s.outputs; });
+  const Moments moments = moments_of(observed, [&](const Sequence& s) -> const Eigen::MatrixXd& {
+    return inputs ? s.inputs : s.outputs;
+  });
   return {moments.mean, moments.deviation.cwiseMax(1e-6)};
 }
 
@@ -109,16 +110,15 @@ ObservationSet observe(const std::vector<Sequence>& sequences, const std::vector
   set.output = {static_cast<int>(outputs.mean.size()), moving(outputs.deviation)};
   set.output_mean = outputs.mean;
   if (set.input.modelled.empty())
-    throw Error("expected input streams that move; none of " +
-                std::to_string(set.input.values) + " values deviates by " +
-                std::to_string(least_deviation) + " or more");
+    throw Error("expected input streams that move; none of " + std::to_string(set.input.values) +
+                " values deviates by " + std::to_string(least_deviation) + " or more");
 
   const int history = lags.empty() ? 0 : lags.back();
   std::vector<Sequence> raw;
   for (const Sequence& sequence : sequences) {
     const int frames = static_cast<int>(sequence.inputs.cols());
-    Sequence observed{sequence.name, {}, {}, cut(sequence.segments, history, frames - 1),
-                      sequence.style};
+    Sequence observed{
+        sequence.name, {}, {}, cut(sequence.segments, history, frames - 1), sequence.style};
     if (observed.segments.empty()) continue;
     observed.inputs = raw_inputs(sequence, set.input);
     observed.outputs = raw_outputs(sequence, set.output);

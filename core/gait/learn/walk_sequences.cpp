@@ -133,7 +133,9 @@ WalkSequences walk_sequences(const std::vector<Walk>& walks, const WalkOptions& 
   std::vector<double> cycle_seconds;
   for (std::size_t i = 0; i < walks.size(); ++i) {
     const Walk& walk = walks[i];
-    WalkUse use{walk.clip.name, walk.style};
+    WalkUse use;
+    use.name = walk.clip.name;
+    use.style = walk.style;
     const std::vector<int> matched = match_joints(result.body, walk.clip.skeleton, walk.clip.name);
     JointRoles roles = find_roles(walk.clip.skeleton, options.roles);
     const WalkTrack track = follow_walk(walk.clip, roles);

@@ -13,26 +13,26 @@
 namespace gait {
 
 struct Walk {
-  Clip clip;                       // metres, Y up
-  std::string style, subject;      // empty: not said
-  std::optional<double> speed;     // m/s, if said
-  std::vector<Contact> contacts;   // empty: found in the clip
+  Clip clip;                      // metres, Y up
+  std::string style, subject;     // empty: not said
+  std::optional<double> speed;    // m/s, if said
+  std::vector<Contact> contacts;  // empty: found in the clip
 };
 
 struct WalkOptions {
-  double frame_rate = 0;                    // of the model; 0: 30, or the clips' own when slower
-  std::vector<std::string> input_joints;    // names; empty: all but hips and legs
-  std::vector<std::string> output_joints;   // names; empty: hips and legs
-  RoleTable roles;                          // overrides what names suggest
-  int fewest_steps = 4;                     // a clip with fewer is left out
+  double frame_rate = 0;                   // of the model; 0: 30, or the clips' own when slower
+  std::vector<std::string> input_joints;   // names; empty: all but hips and legs
+  std::vector<std::string> output_joints;  // names; empty: hips and legs
+  RoleTable roles;                         // overrides what names suggest
+  int fewest_steps = 4;                    // a clip with fewer is left out
 };
 
 // What became of one walk.
 struct WalkUse {
   std::string name, style;
   bool used = false;
-  std::string why_not;       // when not used
-  std::string remark;        // e.g. that it was resampled
+  std::string why_not;  // when not used
+  std::string remark;   // e.g. that it was resampled
   int steps = 0;
   double seconds = 0, speed = 0;
   bool treadmill = false;
@@ -42,10 +42,10 @@ struct WalkSequences {
   double frame_rate = 30;
   Body body;
   std::vector<Stream> inputs, outputs;
-  std::vector<std::string> styles;       // sorted by first appearance
-  std::vector<Sequence> sequences;       // labels: 0 right, 1 left
-  std::vector<int> walk_of_sequence;     // index into the walks
-  std::vector<WalkUse> uses;             // one per walk
+  std::vector<std::string> styles;    // sorted by first appearance
+  std::vector<Sequence> sequences;    // labels: 0 right, 1 left
+  std::vector<int> walk_of_sequence;  // index into the walks
+  std::vector<WalkUse> uses;          // one per walk
 };
 
 // Throws Error when nothing is left, when joints are named that are not there, or when the walks'

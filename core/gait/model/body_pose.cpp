@@ -92,8 +92,8 @@ BodyPoses body_poses(const Clip& clip, const Body& body, const std::vector<int>&
       Eigen::Quaterniond& rotation =
           poses.rotations[static_cast<std::size_t>(frame) * poses.joints + joint];
       if (matched[joint] < 0)
-        rotation = body.references.empty() ? Eigen::Quaterniond::Identity()
-                                           : body.references[joint];
+        rotation =
+            body.references.empty() ? Eigen::Quaterniond::Identity() : body.references[joint];
       else if (matched[joint] == roles.hips)
         rotation = about_vertical(-poses.heading[frame]) *
                    world.rotations[static_cast<std::size_t>(frame) * joints + roles.hips];

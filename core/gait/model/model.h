@@ -35,29 +35,29 @@ struct State {
   // Gaussian over z = [x; y], scaled; x has model.input.size() entries, y model.output.size().
   Eigen::VectorXd mean;
   Eigen::MatrixXd covariance;
-  double stay = 0.5;           // probability of staying for another frame
-  double duration = 0;         // mean time spent here, seconds
-  double weight = 0;           // how many frames it was learnt from
-  Eigen::MatrixXd style_means; // z by styles: per-style means, scaled
+  double stay = 0.5;                 // probability of staying for another frame
+  double duration = 0;               // mean time spent here, seconds
+  double weight = 0;                 // how many frames it was learnt from
+  Eigen::MatrixXd style_means;       // z by styles: per-style means, scaled
   Eigen::MatrixXd style_covariance;  // of x within styles, shared by all styles
 };
 
 struct Label {
   std::string name;
-  std::vector<int> successors;  // indices of the labels that may follow
-  std::vector<State> states;    // left to right, no skips
-  double duration = 0;            // mean time from its begin to its end, seconds
-  double duration_deviation = 0;  // seconds
+  std::vector<int> successors;       // indices of the labels that may follow
+  std::vector<State> states;         // left to right, no skips
+  double duration = 0;               // mean time from its begin to its end, seconds
+  double duration_deviation = 0;     // seconds
   double shortest = 0, longest = 0;  // seconds, as seen in training
 };
 
 // The body behind rotation streams.
 struct Body {
-  Skeleton skeleton;                            // metres, Y up
-  std::vector<Role> roles;                      // one per joint
-  std::vector<Eigen::Quaterniond> references;   // per joint, chordal mean over the training clips
-  std::vector<int> input_joints, output_joints; // indices, in the order of the streams
-  double heading_window = 1.1;                  // seconds in a cycle: window of the causal heading
+  Skeleton skeleton;                             // metres, Y up
+  std::vector<Role> roles;                       // one per joint
+  std::vector<Eigen::Quaterniond> references;    // per joint, chordal mean over the training clips
+  std::vector<int> input_joints, output_joints;  // indices, in the order of the streams
+  double heading_window = 1.1;                   // seconds in a cycle: window of the causal heading
 };
 
 enum class DecoderKind { viterbi, forward, lag };
@@ -81,8 +81,8 @@ struct Training {
   double regularisation = 30;  // kappa
   std::string regularisation_chosen_by;
   std::vector<double> log_likelihood, penalised_log_likelihood;  // per iteration
-  double validated_error = 0;           // mean angle of output joints on held-out clips, radians
-  double validated_step_accuracy = 0;   // shares, 0 when not validated
+  double validated_error = 0;          // mean angle of output joints on held-out clips, radians
+  double validated_step_accuracy = 0;  // shares, 0 when not validated
   double validated_style_accuracy = 0;
   double validated_calibration_error = 0;
   bool synthetic = false;
@@ -95,7 +95,7 @@ struct Model {
   InputLayout input;
   OutputLayout output;
   Scaling input_scaling, output_scaling;
-  Eigen::VectorXd output_mean;   // one per output value: what unmodelled ones are set to
+  Eigen::VectorXd output_mean;  // one per output value: what unmodelled ones are set to
   std::vector<Label> labels;
   std::vector<std::string> styles;
   std::optional<Body> body;

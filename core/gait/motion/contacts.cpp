@@ -10,9 +10,9 @@ namespace gait {
 
 namespace {
 
-constexpr double first_guess_of_cycle = 1.1;      // seconds; an adult's at an easy pace
-constexpr double least_stride_per_leg = 0.12;     // feet closer than this never stepped
-constexpr double shortest_step_seconds = 0.18;    // a stumble, not a step
+constexpr double first_guess_of_cycle = 1.1;    // seconds; an adult's at an easy pace
+constexpr double least_stride_per_leg = 0.12;   // feet closer than this never stepped
+constexpr double shortest_step_seconds = 0.18;  // a stumble, not a step
 
 class Walk {
  public:
@@ -23,9 +23,7 @@ class Walk {
   const Eigen::Vector3d& position(int frame, int joint) const {
     return world_.positions[static_cast<std::size_t>(frame) * joints_ + joint];
   }
-  int foot(Foot foot) const {
-    return foot == Foot::right ? roles_.right.foot : roles_.left.foot;
-  }
+  int foot(Foot foot) const { return foot == Foot::right ? roles_.right.foot : roles_.left.foot; }
   // How far a foot is ahead of the hips along the heading, metres.
   double ahead(int frame, Foot which, const std::vector<double>& heading) const {
     return (position(frame, foot(which)) - position(frame, roles_.hips))
@@ -116,8 +114,7 @@ WalkTrack follow_walk(const Clip& clip, const JointRoles& roles) {
   track.world = world_poses(clip);
   const Walk walk(clip, roles, track.world);
   const auto& joints = clip.skeleton.joints;
-  track.leg_length =
-      joints[roles.left.shank].offset.norm() + joints[roles.left.foot].offset.norm();
+  track.leg_length = joints[roles.left.shank].offset.norm() + joints[roles.left.foot].offset.norm();
   if (clip.frames() < 3) {
     track.heading.assign(clip.frames(), 0.0);
     return track;
@@ -146,8 +143,8 @@ WalkTrack follow_walk(const Clip& clip, const JointRoles& roles) {
 std::vector<Cycle> straight_cycles(const WalkTrack& track, double limit) {
   std::vector<Cycle> straight;
   for (const Cycle& cycle : cycles_between(track.contacts)) {
-    const auto [low, high] = std::minmax_element(track.heading.begin() + cycle.begin,
-                                                 track.heading.begin() + cycle.end);
+    const auto [low, high] =
+        std::minmax_element(track.heading.begin() + cycle.begin, track.heading.begin() + cycle.end);
     if (*high - *low < limit) straight.push_back(cycle);
   }
   return straight;

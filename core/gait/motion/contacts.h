@@ -1,5 +1,5 @@
-// Contacts of a captured walk, found by looking at all of it (Zeni et al. 2008): a foot touches when
-// it is farthest ahead of the hips along the heading.
+// Contacts of a captured walk, found by looking at all of it (Zeni et al. 2008): a foot touches
+// when it is farthest ahead of the hips along the heading.
 #pragma once
 
 #include <vector>
@@ -16,10 +16,10 @@ struct WalkTrack {
   WorldPoses world;             // metres, Y up; frame after frame, one entry per joint
   std::vector<double> heading;  // radians, unwrapped
   std::vector<Contact> contacts;
-  double cycle_seconds = 1.1;   // median time from contact to the same foot's next contact
-  double speed = 0;             // m/s along the ground
-  bool treadmill = false;       // the root stays where it is while the feet travel
-  double leg_length = 0;        // thigh + shank, metres
+  double cycle_seconds = 1.1;  // median time from contact to the same foot's next contact
+  double speed = 0;            // m/s along the ground
+  bool treadmill = false;      // the root stays where it is while the feet travel
+  double leg_length = 0;       // thigh + shank, metres
 };
 
 // Follows a clip in metres with Y up. Throws Error when hips, thighs, shanks or feet are missing; a

@@ -1,4 +1,5 @@
-// Heading: where a walk goes. An angle about the vertical (radians), 0 along +Z, growing towards +X.
+// Heading: where a walk goes. An angle about the vertical (radians), 0 along +Z, growing towards
+// +X.
 //
 // It is slow by definition: the direction of travel over one cycle, or the facing direction (normal
 // to the line from thigh to thigh, averaged over a cycle) when the root hardly travels. The pelvis'

@@ -16,9 +16,9 @@ namespace gait {
 
 // Which values of a frame are observed, and how far back.
 struct InputLayout {
-  int values = 0;              // how many values a frame of the input streams has
-  std::vector<int> modelled;   // which of them move, ascending
-  std::vector<int> lags;       // frames back, ascending, each at least 1
+  int values = 0;             // how many values a frame of the input streams has
+  std::vector<int> modelled;  // which of them move, ascending
+  std::vector<int> lags;      // frames back, ascending, each at least 1
 
   int statics() const { return static_cast<int>(modelled.size()); }
   int size() const { return statics() * (1 + static_cast<int>(lags.size())); }

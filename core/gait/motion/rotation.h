@@ -69,8 +69,8 @@ struct SwingTwist {
   Quaternion<Scalar> twist;  // about the given axis
 };
 
-// Splits rotation = swing * twist, the twist about the unit vector `axis`. Where the swing is half a
-// turn the twist is not determined: it is then the identity.
+// Splits rotation = swing * twist, the twist about the unit vector `axis`. Where the swing is half
+// a turn the twist is not determined: it is then the identity.
 template <typename Scalar>
 SwingTwist<Scalar> swing_twist(const Quaternion<Scalar>& rotation,
                                const Vector3<Scalar>& axis) noexcept {

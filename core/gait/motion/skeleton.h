@@ -10,9 +10,9 @@ namespace gait {
 
 struct Joint {
   std::string name;
-  int parent = -1;                     // index of the parent, always smaller than the joint's own; -1: a root
-  Eigen::Vector3d offset{0, 0, 0};     // from the parent, in the parent's frame
-  std::vector<Eigen::Vector3d> tips;   // end sites: where bones without a joint at their end stop
+  int parent = -1;  // index of the parent, always smaller than the joint's own; -1: a root
+  Eigen::Vector3d offset{0, 0, 0};    // from the parent, in the parent's frame
+  std::vector<Eigen::Vector3d> tips;  // end sites: where bones without a joint at their end stop
 };
 
 struct Skeleton {
