@@ -41,7 +41,7 @@ class CovarianceMap {
   // of dimensions: about 1 for what was taught.
   float distance() const noexcept { return distance_; }
 
-  void exchange(std::shared_ptr<const StateTables>& tables) noexcept { tables_.swap(tables); }
+  void use(const std::shared_ptr<const StateTables>& tables) noexcept { tables_ = tables; }
 
  private:
   std::shared_ptr<const StateTables> tables_;

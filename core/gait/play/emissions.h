@@ -33,7 +33,7 @@ class Emissions {
   // state, over all labels.
   std::span<const float> of(const Eigen::Ref<const Eigen::VectorXf>& x, int known) noexcept;
 
-  void exchange(std::shared_ptr<const StateTables>& tables) noexcept { tables_.swap(tables); }
+  void use(const std::shared_ptr<const StateTables>& tables) noexcept { tables_ = tables; }
 
  private:
   std::shared_ptr<const StateTables> tables_;

@@ -70,11 +70,9 @@ void Trajectory::solve() noexcept {
   }
 }
 
-Eigen::Ref<const Eigen::MatrixXf> Trajectory::generate() noexcept {
-  fresh_ = 0;
-  solve();
-  // Back substitution no further than the current frames.
-  const int last = filled_ - 1, first = std::max(0, last - (current_ + future_) + 1);
+// Back substitution from the newest frame to frame `first` of the queue.
+void Trajectory::substitute(int first) noexcept {
+  const int last = filled_ - 1;
   for (int i = last; i >= first; --i) {
     path_.col(i) = (right_.col(i) * diagonal_.col(i)).matrix();
     if (i + 1 <= last)
@@ -82,12 +80,20 @@ Eigen::Ref<const Eigen::MatrixXf> Trajectory::generate() noexcept {
     if (i + 2 <= last)
       path_.col(i).array() -= far_.col(i) * diagonal_.col(i) * path_.col(i + 2).array();
   }
+}
+
+Eigen::Ref<const Eigen::MatrixXf> Trajectory::generate() noexcept {
+  fresh_ = 0;
+  solve();
+  const int first = std::max(0, filled_ - current_ - future_);
+  substitute(first);
   return path_.middleCols(first, std::min(current_, filled_));
 }
 
-Eigen::Ref<const Eigen::MatrixXf> Trajectory::flush() noexcept {
-  generate();
-  const int count = std::min(future_, filled_);
+Eigen::Ref<const Eigen::MatrixXf> Trajectory::flush(int count) noexcept {
+  count = std::min(count, filled_);
+  solve();
+  substitute(filled_ - count);
   return path_.middleCols(filled_ - count, count);
 }
 

@@ -29,14 +29,16 @@ class Trajectory {
   // call.
   Eigen::Ref<const Eigen::MatrixXf> generate() noexcept;
 
-  // For the end of a stream: the frames that were still in the future, values by future.
-  Eigen::Ref<const Eigen::MatrixXf> flush() noexcept;
+  // For the end of a stream: the queue's last `count` frames, values by count; what was still in
+  // the future.
+  Eigen::Ref<const Eigen::MatrixXf> flush(int count) noexcept;
 
   int delay() const noexcept { return future_ + current_ - 1; }  // frames
   void reset() noexcept { filled_ = fresh_ = 0; }
 
  private:
   void solve() noexcept;
+  void substitute(int first) noexcept;
   // Column of the queue's frame `i`, 0 the oldest.
   int column(int i) const noexcept { return (newest_ + 1 + i - filled_ + 2 * length_) % length_; }
 

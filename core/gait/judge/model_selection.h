@@ -1,0 +1,43 @@
+// Model selection: learns a model and finds what was not said by cross-validation over sequences:
+// the regularisation, the rounds of Baum-Welch, the filter's temper, the styles' calibration.
+//
+// Statistics of states add up (learn/state_statistics), so a fold is left out by subtraction; the
+// alignments, the scaling and the target T are those of all sequences.
+#pragma once
+
+#include <optional>
+#include <vector>
+
+#include "gait/learn/trainer.h"
+
+namespace gait {
+
+struct SelectionOptions {
+  LearningOptions learning;              // its regularisation and rounds serve where none is chosen
+  std::optional<double> regularisation;  // said: not chosen
+  std::optional<int> rounds;             // of Baum-Welch; said: not chosen
+  DecoderKind decoder = DecoderKind::viterbi;
+  std::vector<double> regularisations{3, 10, 30, 100, 300, 1000, 3000};
+  std::vector<int> round_choices{0, 1, 4};
+  std::vector<double> tempers{0.03, 0.1, 0.3, 1};
+  int folds = 5;  // at most; never more than sequences
+};
+
+// One choice that was tried, and the mean error of output streams on held-out sequences (radians
+// for rotations), means over sequences.
+struct Trial {
+  double regularisation = 0;
+  int rounds = 0;
+  double error = 0;
+};
+
+struct Selected {
+  Model model;
+  std::vector<Trial> trials;
+  int folds = 0;  // 0: too few sequences, nothing was validated
+};
+
+// Throws Error as learn() does, and Error("cancelled").
+Selected select_model(const LearningTask& task, const SelectionOptions& options);
+
+}  // namespace gait

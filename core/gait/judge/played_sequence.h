@@ -1,0 +1,30 @@
+// A sequence played through a model, with what the truth says beside it.
+#pragma once
+
+#include <memory>
+#include <vector>
+
+#include "gait/learn/sequence.h"
+#include "gait/play/player.h"
+
+namespace gait {
+
+struct PlayedSequence {
+  int begin = 0, end = 0;            // frames that count: between the first and last segment
+  Eigen::MatrixXd outputs;           // output values by frames, delays realigned
+  std::vector<Decision> decisions;   // per frame
+  Eigen::MatrixXf style_posteriors;  // styles by frames
+  std::vector<int> true_label;       // per frame, -1 outside the segments
+};
+
+// `tables`: the model's, if they were made already.
+PlayedSequence play_sequence(std::shared_ptr<const Model> model, const PlayerSettings& settings,
+                             const Sequence& sequence,
+                             std::shared_ptr<const StateTables> tables = nullptr);
+
+// Distance of two output vectors per stream at one frame: the geodesic angle (radians) for
+// rotations, the mean absolute difference for plain values.
+Eigen::VectorXd stream_errors(const Model& model, const Eigen::Ref<const Eigen::VectorXd>& a,
+                              const Eigen::Ref<const Eigen::VectorXd>& b);
+
+}  // namespace gait
