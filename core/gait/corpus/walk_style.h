@@ -29,7 +29,7 @@ struct WalkStyle {
   // Speed and rhythm
   double speed = 1.5;     // leg lengths per second
   double cadence = 1.03;  // times the mean gait's frequency at this speed
-  double stance = 0.575;  // share of the cycle the ball of a foot is on the ground
+  double stance = 0.562;  // share of the cycle the ball of a foot is on the ground
   double limp = 0;        // share by which right steps are longer in time, left ones shorter
 
   // Feet
@@ -37,7 +37,7 @@ struct WalkStyle {
   double toe_out = 0.12;        // yaw of the foot, outwards
   double strike_pitch = -0.40;  // of the foot at contact; below 0 the heel comes first
   double sole_pitch = 0;        // while it bears the body; above 0 the heel stays up
-  double push_pitch = 0.80;     // at toe-off
+  double push_pitch = 0.75;     // at toe-off
   double heel_rise = 0.29;      // phase of the foot's cycle at which the heel leaves the ground
   double lift = 0.06;           // of the sole, a third into the swing
   double landing = 0.20;        // downward speed at contact, m/s
