@@ -80,11 +80,15 @@ struct Seen {
   std::vector<Contact> contacts;
 };
 
+// The longest run of steps that follow each other without a gap.
 std::vector<Segment> segments_of(const std::vector<Contact>& contacts) {
-  std::vector<Segment> segments;
-  for (const Step& step : steps_between(contacts))
-    segments.push_back({step.begin, step.end, step.foot == Foot::right ? 0 : 1});
-  return segments;
+  std::vector<Segment> run, longest;
+  for (const Step& step : steps_between(contacts)) {
+    if (!run.empty() && run.back().end != step.begin) run.clear();
+    run.push_back({step.begin, step.end, step.foot == Foot::right ? 0 : 1});
+    if (run.size() > longest.size()) longest = run;
+  }
+  return longest;
 }
 
 // The reference rotation of each joint: the chordal mean over all frames of all used clips.
@@ -100,10 +104,11 @@ std::vector<Eigen::Quaterniond> references_of(const std::vector<Seen>& seen, int
   return references;
 }
 
-Eigen::MatrixXd values_of(const Seen& seen, const Body& body, const std::vector<int>& joints) {
-  Eigen::MatrixXd values(3 * joints.size(), seen.poses.frames());
-  for (int frame = 0; frame < seen.poses.frames(); ++frame)
-    pose_vector<double>(seen.poses.pose(frame), body.references, joints,
+Eigen::MatrixXd values_of(const BodyPoses& poses, const Body& body,
+                          const std::vector<int>& joints) {
+  Eigen::MatrixXd values(3 * joints.size(), poses.frames());
+  for (int frame = 0; frame < poses.frames(); ++frame)
+    pose_vector<double>(poses.pose(frame), body.references, joints,
                         {values.col(frame).data(), static_cast<std::size_t>(values.rows())});
   return values;
 }
@@ -116,6 +121,23 @@ std::vector<Stream> streams_of(const Body& body, const std::vector<int>& joints)
 }
 
 }  // namespace
+
+Sequence walk_sequence(const Body& body, const BodyPoses& poses,
+                       const std::vector<Contact>& contacts, const std::string& name) {
+  Sequence sequence;
+  sequence.name = name;
+  sequence.inputs = values_of(poses, body, body.input_joints);
+  sequence.outputs = values_of(poses, body, body.output_joints);
+  sequence.segments = segments_of(contacts);
+  return sequence;
+}
+
+std::vector<Contact> contacts_at(const std::vector<Contact>& contacts, double ratio) {
+  std::vector<Contact> scaled = contacts;
+  for (Contact& contact : scaled)
+    contact.frame = static_cast<int>(std::lround(contact.frame * ratio));
+  return scaled;
+}
 
 WalkSequences walk_sequences(const std::vector<Walk>& walks, const WalkOptions& options) {
   if (walks.empty()) throw Error("expected at least one walk; found none");
@@ -141,11 +163,8 @@ WalkSequences walk_sequences(const std::vector<Walk>& walks, const WalkOptions& 
     const WalkTrack track = follow_walk(walk.clip, roles);
     const double ratio = result.frame_rate / walk.clip.frame_rate;
     Seen one;
-    for (Contact contact : walk.contacts.empty() ? track.contacts : walk.contacts) {
-      contact.frame = static_cast<int>(std::lround(contact.frame * ratio));
-      one.contacts.push_back(contact);
-    }
-    use.steps = std::max(0, static_cast<int>(one.contacts.size()) - 1);
+    one.contacts = contacts_at(walk.contacts.empty() ? track.contacts : walk.contacts, ratio);
+    use.steps = static_cast<int>(segments_of(one.contacts).size());
     use.seconds = walk.clip.frames() / walk.clip.frame_rate;
     use.speed = walk.speed.value_or(track.speed);
     use.treadmill = track.treadmill;
@@ -181,11 +200,7 @@ WalkSequences walk_sequences(const std::vector<Walk>& walks, const WalkOptions& 
 
   for (std::size_t i = 0; i < seen.size(); ++i) {
     const Walk& walk = walks[result.walk_of_sequence[i]];
-    Sequence sequence;
-    sequence.name = walk.clip.name;
-    sequence.inputs = values_of(seen[i], result.body, result.body.input_joints);
-    sequence.outputs = values_of(seen[i], result.body, result.body.output_joints);
-    sequence.segments = segments_of(seen[i].contacts);
+    Sequence sequence = walk_sequence(result.body, seen[i].poses, seen[i].contacts, walk.clip.name);
     if (!walk.style.empty()) {
       auto at = std::find(result.styles.begin(), result.styles.end(), walk.style);
       if (at == result.styles.end()) at = result.styles.insert(at, walk.style);

@@ -6,6 +6,7 @@
 #include <vector>
 
 #include "gait/learn/sequence.h"
+#include "gait/model/body_pose.h"
 #include "gait/model/model.h"
 #include "gait/motion/clip.h"
 #include "gait/motion/steps.h"
@@ -47,6 +48,15 @@ struct WalkSequences {
   std::vector<int> walk_of_sequence;  // index into the walks
   std::vector<WalkUse> uses;          // one per walk
 };
+
+// The streams of one walk seen through a body: pose vectors of its input and output joints, and the
+// longest unbroken run of steps as segments (labels: 0 right, 1 left). `contacts` in frames of
+// `poses`.
+Sequence walk_sequence(const Body& body, const BodyPoses& poses,
+                       const std::vector<Contact>& contacts, const std::string& name);
+
+// Contacts at another frame rate, `ratio` times the one they were found at.
+std::vector<Contact> contacts_at(const std::vector<Contact>& contacts, double ratio);
 
 // Throws Error when nothing is left, when joints are named that are not there, or when the walks'
 // bodies do not match.

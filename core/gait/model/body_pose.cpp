@@ -56,24 +56,17 @@ BodyPoses body_poses(const Clip& clip, const Body& body, const std::vector<int>&
   BodyPoses poses;
   poses.joints = body.skeleton.size();
   poses.rotations.resize(static_cast<std::size_t>(clip.frames()) * poses.joints);
-  JointRoles roles;
-  roles.of_joint.assign(clip.skeleton.size(), Role::none);
-  const auto find = [&](Role role) {
-    for (int joint = 0; joint < poses.joints; ++joint)
-      if (body.roles[joint] == role) return matched[joint];
-    return -1;
-  };
-  roles.hips = find(Role::hips);
-  roles.left.thigh = find(Role::left_thigh);
-  roles.right.thigh = find(Role::right_thigh);
-  roles.left.shank = find(Role::left_shank);
-  roles.left.foot = find(Role::left_foot);
+  // The roles' joints as the clip counts them.
+  JointRoles roles = body_roles(body);
+  for (int* joint :
+       {&roles.hips, &roles.left.thigh, &roles.left.shank, &roles.left.foot, &roles.left.toes,
+        &roles.right.thigh, &roles.right.shank, &roles.right.foot, &roles.right.toes})
+    if (*joint >= 0) *joint = matched[*joint];
 
   const WorldPoses world = world_poses(clip);
   const int joints = clip.skeleton.size();
   poses.heading.assign(clip.frames(), 0.0);
-  const bool legs = roles.hips >= 0 && roles.left.thigh >= 0 && roles.right.thigh >= 0 &&
-                    roles.left.shank >= 0 && roles.left.foot >= 0;
+  const bool legs = roles.has_legs();
   const bool hips_measured =
       std::any_of(body.input_joints.begin(), body.input_joints.end(),
                   [&](int joint) { return body.roles[joint] == Role::hips; });
@@ -101,6 +94,39 @@ BodyPoses body_poses(const Clip& clip, const Body& body, const std::vector<int>&
         rotation = clip.pose(frame)[matched[joint]];
     }
   return poses;
+}
+
+JointRoles body_roles(const Body& body) {
+  JointRoles roles;
+  roles.of_joint = body.roles;
+  roles.hips = roles.joint(Role::hips);
+  roles.left = {roles.joint(Role::left_thigh), roles.joint(Role::left_shank),
+                roles.joint(Role::left_foot), roles.joint(Role::left_toes)};
+  roles.right = {roles.joint(Role::right_thigh), roles.joint(Role::right_shank),
+                 roles.joint(Role::right_foot), roles.joint(Role::right_toes)};
+  return roles;
+}
+
+Clip body_clip(const Body& body, const std::string& name, double frame_rate, int frames) {
+  Clip clip;
+  clip.name = name;
+  clip.skeleton = body.skeleton;
+  clip.frame_rate = frame_rate;
+  clip.resize(frames);
+  return clip;
+}
+
+void place_body(Clip& clip, int frame, const JointRoles& roles,
+                std::span<const Eigen::Quaterniond> pose, double heading,
+                const Eigen::Vector3d& hips) {
+  std::copy(pose.begin(), pose.end(), clip.pose(frame).begin());
+  for (int above = clip.skeleton.joints[roles.hips].parent; above >= 0;
+       above = clip.skeleton.joints[above].parent) {
+    clip.pose(frame)[above].setIdentity();
+    clip.translation(frame)[above].setZero();
+  }
+  clip.pose(frame)[roles.hips] = about_vertical(heading) * pose[roles.hips];
+  clip.translation(frame)[roles.hips] = hips;
 }
 
 }  // namespace gait

@@ -39,6 +39,18 @@ struct BodyPoses {
 BodyPoses body_poses(const Clip& clip, const Body& body, const std::vector<int>& matched,
                      double cycle_seconds);
 
+// Roles of the body's joints as find_roles gives them for a skeleton.
+JointRoles body_roles(const Body& body);
+
+// A clip of the body with `frames` frames at rest: what place_body fills.
+Clip body_clip(const Body& body, const std::string& name, double frame_rate, int frames);
+
+// Puts a pose with heading out back into the world: hips turned to `heading` and moved to `hips`
+// (metres), whatever joints are above them. `pose`: one rotation per joint of the body.
+void place_body(Clip& clip, int frame, const JointRoles& roles,
+                std::span<const Eigen::Quaterniond> pose, double heading,
+                const Eigen::Vector3d& hips);
+
 // Pose vector: per joint of `joints` the rotation vector relative to its reference, three values
 // each. `pose` has one rotation per joint of the body.
 template <typename Scalar>

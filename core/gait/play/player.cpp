@@ -33,6 +33,7 @@ Player::Player(std::shared_ptr<const Model> model, const PlayerSettings& setting
       observer_(model_->input, model_->input_scaling),
       emissions_(tables_, model_->input),
       decoder_(decoder_for(*model_, settings, tables_)),
+      phase_(*tables_),
       styles_(*model_, tables_),
       map_(*model_, tables_),
       trajectory_(trajectory_for(*model_, settings)),
@@ -125,8 +126,8 @@ void Player::decide(int back, int state, std::span<const WeightedState> states,
   const int label = tables_->states[state].label;
   styles_.advance(states, held.x, held.known);
   const OutputGaussian& gaussian = map_.map(states, held.x, held.known);
-  held.decision = {label, state - tables_->first_state[label], decoder_.log_likelihood(), progress,
-                   map_.distance()};
+  held.decision = {label,    state - tables_->first_state[label], decoder_.log_likelihood(),
+                   progress, phase_.of(states, progress).phase,   map_.distance()};
   std::copy(styles_.posteriors().begin(), styles_.posteriors().end(), held.styles.begin());
   latest_ = held.decision;
   trajectory_.push(gaussian);
@@ -149,7 +150,7 @@ bool Player::flush() noexcept {
   while (mapped_ < taken_ && available_ == 0) {
     const int back = taken_ - 1 - mapped_;
     const WeightedState state{decoder_.state_at_end(back), 1};
-    decide(back, state.state, {&state, 1}, latest_.progress);
+    decide(back, state.state, {&state, 1}, decoder_.progress_at_end(back));
   }
   if (available_ == 0 && emitted_ < mapped_) emit(trajectory_.flush(mapped_ - emitted_));
   return available_ > 0;

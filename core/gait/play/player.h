@@ -13,6 +13,7 @@
 #include "gait/play/covariance_map.h"
 #include "gait/play/decoder.h"
 #include "gait/play/emissions.h"
+#include "gait/play/phase_estimate.h"
 #include "gait/play/style_recogniser.h"
 #include "gait/play/table_maker.h"
 #include "gait/play/trajectory.h"
@@ -36,6 +37,7 @@ struct Decision {
   int state = 0;  // within the label
   float log_likelihood = 0;
   float progress = 0;  // through the label, 0 to 1
+  float phase = 0;     // through the cycle of labels, 0 to 1
   float distance = 0;  // of the observation from what was taught; about 1 for that
 };
 
@@ -97,6 +99,7 @@ class Player {
   InputObserver<float> observer_;
   Emissions emissions_;
   Decoder decoder_;
+  PhaseEstimator phase_;
   StyleRecogniser styles_;
   CovarianceMap map_;
   Trajectory trajectory_;
