@@ -36,7 +36,9 @@ struct BvhFile {
 
 // Reads a BVH file. Throws Error with file, line and what was expected: not a BVH, truncated, fewer
 // rows than `Frames:` says, a wrong number of values in a row, NaN or Inf, unknown channels, absurd
-// counts, nesting too deep. More rows than announced are a warning, and all are used.
+// counts (above 10000 joints, 32 channels a joint, numbers of 1e9, 1 GiB), nesting deeper than 200.
+// More rows than announced are a warning, and all are used. Names of joints may hold spaces and
+// occur twice; there may be several roots.
 BvhFile read_bvh(const std::filesystem::path& path);
 BvhFile parse_bvh(std::string_view text, std::string name);
 
