@@ -1,4 +1,5 @@
 // gait corpus: the built-in walks as files.
+#include <charconv>
 #include <cstdint>
 #include <cstdio>
 #include <filesystem>
@@ -31,11 +32,14 @@ struct StyleCount {
   double seconds = 0;
 };
 
-// The library reads "-3" as a very large number.
+// CLI11 would read "-3" as a very large number.
 std::string seed_fault(const std::string& seed) {
-  return seed.find_first_not_of("0123456789") == std::string::npos
+  std::uint64_t number = 0;
+  const char* end = seed.data() + seed.size();
+  const auto [stop, error] = std::from_chars(seed.data(), end, number);
+  return error == std::errc() && stop == end
              ? ""
-             : "expected a whole number from 0 on, found '" + seed + "'";
+             : "expected a whole number from 0 to 2^64 - 1, found '" + seed + "'";
 }
 
 void write_walk(const CorpusWalk& walk, const std::filesystem::path& folder) {

@@ -15,8 +15,6 @@
 
 #include "gait/error.h"
 
-extern char** environ;
-
 namespace gait::tool {
 
 namespace {

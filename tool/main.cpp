@@ -74,7 +74,7 @@ int run(const Command& command) {
 
 }  // namespace
 
-int main(int argc, char** argv) {
+int main(int argc, char** argv) try {
   CLI::App program{"Recognise, reconstruct and draw human walking: what is done before the show.",
                    "gait"};
   program.set_version_flag("--version", "gait " GAIT_VERSION);
@@ -103,4 +103,7 @@ int main(int argc, char** argv) {
   for (const Command& command : commands)
     if (command.app->parsed()) return run(command);
   return used_wrongly;
+} catch (const std::exception& error) {
+  std::fprintf(stderr, "gait: %s\n", error.what());
+  return failed;
 }

@@ -79,7 +79,7 @@ std::vector<int> along_the_way(const WalkView& view, int strobe) {
   const bool turns_back = (*high - *low) / view.height > 1.1 * way;
   if (way < shortest_travel || way > longest_travel || turns_back) return {};
   const Frames part = walking_part(view.travel);
-  const std::vector<int> frames = evenly(part, strobe > 0 ? strobe : figures_for(view, part));
+  std::vector<int> frames = evenly(part, strobe > 0 ? strobe : figures_for(view, part));
   // Whoever stops on the way would stand there several times over.
   const double mean = way / static_cast<double>(std::max<std::size_t>(1, frames.size() - 1));
   for (std::size_t i = 1; i < frames.size(); ++i)

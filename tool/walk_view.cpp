@@ -21,7 +21,7 @@ std::vector<Eigen::Vector3d> world_points(const StickBones& figure, const WorldP
   for (int frame = 0; frame < frames; ++frame)
     for (const Point& point : figure.points) {
       const std::size_t joint = static_cast<std::size_t>(frame) * joints + point.joint;
-      points.push_back(world.positions[joint] + world.rotations[joint] * point.offset);
+      points.emplace_back(world.positions[joint] + world.rotations[joint] * point.offset);
     }
   return points;
 }
