@@ -1,0 +1,66 @@
+// Evaluation: a model against the truth in captured clips; all the figures of `gait evaluate`.
+//
+// Means over clips and pooled over frames differ (slow walkers have long clips): both are given.
+// Angles in radians, jerk in rad/s^3, slide in millimetres, times in microseconds.
+#pragma once
+
+#include <array>
+#include <memory>
+#include <string>
+#include <vector>
+
+#include "gait/learn/walk_sequences.h"
+#include "gait/play/player.h"
+
+namespace gait {
+
+// What stands in for the outputs: each contains the one before and adds something.
+enum class Stage { mean_pose, state_means, mapped, synthesised };
+inline constexpr std::array stages{Stage::mean_pose, Stage::state_means, Stage::mapped,
+                                   Stage::synthesised};
+constexpr std::string_view stage_name(Stage stage) {
+  constexpr std::string_view names[] = {"mean pose", "state means", "mapped", "synthesised"};
+  return names[static_cast<int>(stage)];
+}
+
+// Sums over frames, from which both kinds of means come.
+struct EvaluatedClip {
+  std::string name, style;
+  int frames = 0;                            // between first and last contact
+  double right_steps = 0, right_styles = 0;  // frames
+  bool style_known = false;                  // the clip's style is one of the model's
+  int best_style = -1;                       // over the whole clip
+  // Per stage and output stream: sum over frames of the angle to the truth.
+  std::array<Eigen::VectorXd, 4> angle_sums;
+  // Truth, mapped, synthesised: sum over frames of the joints' mean jerk.
+  double jerk_truth = 0, jerk_mapped = 0, jerk_synthesised = 0;
+  int jerk_frames = 0;
+  double slide_captured = 0, slide_synthesised = 0;  // mm per stance
+  double path_ratio = 0;  // root's path from the feet over the captured path; 0: did not travel
+};
+
+struct Evaluation {
+  std::vector<EvaluatedClip> clips;
+  std::vector<std::string> skipped;        // clips with too few steps, each with the reason
+  std::vector<std::string> output_names;   // streams
+  std::vector<bool> counted;               // streams in the mean error: all but the hips
+  std::vector<std::string> styles;         // the model's
+  Eigen::MatrixXi confusion;               // true style by recognised style, frames
+  double calibration_error = 0;            // of style posteriors, 0 to 1
+  std::vector<double> frame_microseconds;  // one per frame of all clips, in no order
+  int delay_frames = 0;
+
+  // Mean angle of the counted streams: over clips, or pooled over frames; of one style if named.
+  double error(Stage stage, bool pooled, const std::string& style = {}) const;
+  double stream_error(Stage stage, int stream) const;  // over clips
+  double step_accuracy(bool pooled) const;
+  double style_accuracy(bool pooled) const;  // per frame; NaN without known styles
+  double style_accuracy_of_clips() const;    // share of clips; NaN without known styles
+};
+
+// Plays each walk through the model and compares. Walks that have too few steps are skipped, saying
+// so. Throws Error when a walk lacks the model's joints or when nothing is left.
+Evaluation evaluate(std::shared_ptr<const Model> model, const std::vector<Walk>& walks,
+                    const PlayerSettings& settings, const RoleTable& roles = {});
+
+}  // namespace gait
