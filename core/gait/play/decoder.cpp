@@ -34,31 +34,32 @@ Decoder::Decoder(std::shared_ptr<const StateTables> tables, DecoderKind kind, in
   }
   scores_.resize(states);
   before_.resize(states);
-  time_.assign(states, 0);
-  time_before_.assign(states, 0);
-  came_from_.resize(states, kind == DecoderKind::lag ? lag_ + 1 : 1);
+  // The frame before the newest is always needed.
+  const int columns = std::max(2, kind == DecoderKind::lag ? lag_ + 1 : 0);
+  came_from_.resize(states, columns);
+  time_.resize(states, columns);
   reset();
 }
 
 void Decoder::reset() noexcept {
   scores_.setZero();
-  std::fill(time_.begin(), time_.end(), 0);
+  time_.setZero();
   came_from_.setZero();
-  frames_ = ring_ = weighted_count_ = state_ = 0;
+  frames_ = newest_ = weighted_count_ = state_ = 0;
   log_likelihood_ = progress_ = 0;
 }
 
 void Decoder::advance(std::span<const float> emissions) noexcept {
+  newest_ = (newest_ + 1) % static_cast<int>(came_from_.cols());
   kind_ == DecoderKind::forward ? filter(emissions) : viterbi(emissions);
+  progress_ = progress_of(state_, std::min(lag(), frames_));
   ++frames_;
-  progress_ = progress_of(state_);
 }
 
 void Decoder::viterbi(std::span<const float> emissions) noexcept {
   const int states = static_cast<int>(scores_.size());
-  ring_ = (ring_ + 1) % static_cast<int>(came_from_.cols());
+  const int previous = column(1);
   before_ = scores_;
-  time_before_ = time_;
   for (int state = 0; state < states; ++state) {
     int best_from = state;
     float best = before_[state] + (frames_ == 0 ? 0 : tables_->states[state].log_stay);
@@ -68,8 +69,8 @@ void Decoder::viterbi(std::span<const float> emissions) noexcept {
         if (score > best) best = score, best_from = from;
       }
     scores_[state] = best + emissions[state];
-    time_[state] = best_from == state ? time_before_[state] + 1 : 1;
-    came_from_(state, ring_) = static_cast<short>(best_from);
+    time_(state, newest_) = best_from == state ? time_(state, previous) + 1 : 1;
+    came_from_(state, newest_) = best_from;
   }
   int newest = 0;
   log_likelihood_ = scores_.maxCoeff(&newest);
@@ -79,23 +80,26 @@ void Decoder::viterbi(std::span<const float> emissions) noexcept {
   weighted_count_ = 1;
 }
 
+int Decoder::column(int back) const noexcept {
+  const int columns = static_cast<int>(came_from_.cols());
+  return (newest_ - back + columns) % columns;
+}
+
 int Decoder::state_back(int back) const noexcept {
   int state = 0;
   scores_.maxCoeff(&state);
-  const int columns = static_cast<int>(came_from_.cols());
-  for (int i = 0; i < back; ++i) state = came_from_(state, (ring_ - i + columns) % columns);
+  for (int i = 0; i < back; ++i) state = came_from_(state, column(i));
   return state;
 }
-
-int Decoder::state_at_end(int back) const noexcept { return state_back(back); }
 
 // scores_ holds log posteriors of the frame before; emissions are tempered, transitions are not.
 void Decoder::filter(std::span<const float> emissions) noexcept {
   const int states = static_cast<int>(scores_.size());
+  const int previous = column(1);
   before_ = scores_.array().exp();
-  time_before_ = time_;
   for (int state = 0; state < states; ++state) {
-    float arrived = frames_ == 0 ? 1 : before_[state] * std::exp(tables_->states[state].log_stay);
+    float arrived = frames_ == 0 ? 1 / static_cast<float>(states)
+                                 : before_[state] * std::exp(tables_->states[state].log_stay);
     float most = arrived;
     int best_from = state;
     if (frames_ > 0)
@@ -106,16 +110,22 @@ void Decoder::filter(std::span<const float> emissions) noexcept {
         if (came > most) most = came, best_from = from;
       }
     scores_[state] = std::log(std::max(arrived, 1e-30f)) + temper_ * emissions[state];
-    time_[state] = best_from == state ? time_before_[state] + 1 : 1;
+    time_(state, newest_) = best_from == state ? time_(state, previous) + 1 : 1;
   }
   const float largest = scores_.maxCoeff(&state_);
   const float sum = (scores_.array() - largest).exp().sum();
   log_likelihood_ = largest + std::log(sum);
   scores_.array() -= log_likelihood_;
+  weigh();
+}
 
-  weighted_count_ = 0;
-  float total = 0;
-  for (int state = 0; state < states; ++state) {
+// Names the states that count, the likeliest first.
+void Decoder::weigh() noexcept {
+  weighted_count_ = 1;
+  weighted_[0] = {state_, std::exp(scores_[state_])};
+  float total = weighted_[0].weight;
+  for (int state = 0; state < static_cast<int>(scores_.size()); ++state) {
+    if (state == state_) continue;
     const float weight = std::exp(scores_[state]);
     if (weight < negligible_weight) continue;
     int place = weighted_count_;
@@ -136,9 +146,10 @@ void Decoder::filter(std::span<const float> emissions) noexcept {
   for (int i = 0; i < weighted_count_; ++i) weighted_[i].weight /= total;
 }
 
-float Decoder::progress_of(int state) const noexcept {
+float Decoder::progress_of(int state, int back) const noexcept {
   const PlayedState& played = tables_->states[state];
-  const float time = static_cast<float>(time_[state] / frame_rate_);
+  // A token that arrived at this frame came half a frame ago, on average.
+  const float time = static_cast<float>((time_(state, column(back)) - 0.5) / frame_rate_);
   const float whole = tables_->label_duration[played.label];
   return whole > 0 ? std::min(1.0f, (played.before + std::min(time, played.mean_duration)) / whole)
                    : 0.0f;

@@ -34,31 +34,38 @@ class Decoder {
   // Speaks of the frame `lag()` frames before the last one given.
   int state() const noexcept { return state_; }
   int label() const noexcept { return tables_->states[state_].label; }
-  // The states of the decision with their weights: one for Viterbi, the likely ones for the filter.
+  // The states of the decision with their weights, the likeliest first: one for Viterbi, those that
+  // count for the filter.
   std::span<const WeightedState> weighted() const noexcept {
     return {weighted_.data(), static_cast<std::size_t>(weighted_count_)};
   }
   // Of the last frame: log-likelihood of x given what came before (filter), or of the best path's
   // last link (Viterbi).
   float log_likelihood() const noexcept { return log_likelihood_; }
-  // Share of the label's mean duration that has passed, 0 to 1, of the decided state.
+  // Share of the label's mean duration that has passed at the frame decided on, 0 to 1, by the
+  // decided state and the time its token has spent in it.
   float progress() const noexcept { return progress_; }
   // Frames by which the decision is late, and whether there is a decision yet.
   int lag() const noexcept { return kind_ == DecoderKind::lag ? lag_ : 0; }
   bool decided() const noexcept { return frames_ > lag(); }
 
-  // After the last frame: the state `back` frames before it on the best path, back < lag().
-  int state_at_end(int back) const noexcept;
+  // After the last frame: the state `back` frames before it on the best path, back <= lag() and
+  // fewer than the frames given, and the progress there.
+  int state_at_end(int back) const noexcept { return state_back(back); }
+  float progress_at_end(int back) const noexcept { return progress_of(state_back(back), back); }
 
-  // New tables of the same labels and states take over between frames; paths live on.
-  void exchange(std::shared_ptr<const StateTables>& tables) noexcept { tables_.swap(tables); }
+  // New tables of the same labels and states take over between frames; paths live on. The caller
+  // keeps the old ones alive until every user has changed, so that nothing is freed here.
+  void use(const std::shared_ptr<const StateTables>& tables) noexcept { tables_ = tables; }
   void reset() noexcept;
 
  private:
   void viterbi(std::span<const float> emissions) noexcept;
   void filter(std::span<const float> emissions) noexcept;
-  float progress_of(int state) const noexcept;
+  void weigh() noexcept;
   int state_back(int back) const noexcept;
+  float progress_of(int state, int back) const noexcept;
+  int column(int back) const noexcept;
 
   std::shared_ptr<const StateTables> tables_;
   DecoderKind kind_;
@@ -68,11 +75,12 @@ class Decoder {
   std::vector<std::vector<int>> predecessors_;  // per state, without itself
   std::vector<float> log_arrive_;               // per state: -log of how many labels may follow
   Eigen::VectorXf scores_, before_;             // log domain, largest 0
-  std::vector<int> time_, time_before_;         // frames the token has spent in its state
-  Eigen::Matrix<short, Eigen::Dynamic, Eigen::Dynamic> came_from_;  // ring of columns, lag only
+  // Rings of columns, one per frame: where the token in each state came from, and the frames it has
+  // spent there.
+  Eigen::MatrixXi came_from_, time_;
   std::vector<WeightedState> weighted_;
   int weighted_count_ = 0;
-  int state_ = 0, frames_ = 0, ring_ = 0;
+  int state_ = 0, frames_ = 0, newest_ = 0;
   float log_likelihood_ = 0, progress_ = 0;
 };
 
