@@ -24,6 +24,19 @@ Trajectory trajectory_for(const Model& model, const PlayerSettings& settings) {
       settings.current, settings.future.value_or(frames_in(model.play.future, model.frame_rate)));
 }
 
+PhaseClockSettings clock_settings(const Model& model, const PhaseEstimator& phase) {
+  PhaseClockSettings settings;
+  if (model.labels.empty()) return settings;
+  settings.steps = std::clamp(phase.labels_in_cycle(0), 1, 64);
+  const double cadence = phase.mean_cadence(0), cycles = cadence / settings.steps;
+  if (!(cycles > 0)) return settings;
+  settings.cadence = cadence;
+  // Gestures may be far slower or faster than steps.
+  settings.slowest = std::min(settings.slowest, cycles / 4);
+  settings.fastest = std::max(settings.fastest, cycles * 4);
+  return settings;
+}
+
 }  // namespace
 
 Player::Player(std::shared_ptr<const Model> model, const PlayerSettings& settings,
@@ -33,7 +46,9 @@ Player::Player(std::shared_ptr<const Model> model, const PlayerSettings& setting
       observer_(model_->input, model_->input_scaling),
       emissions_(tables_, model_->input),
       decoder_(decoder_for(*model_, settings, tables_)),
-      phase_(*tables_),
+      phase_(*model_),
+      clock_(clock_settings(*model_, phase_)),
+      cyclic_(phase_.labels_in_cycle(0) == static_cast<int>(model_->labels.size())),
       styles_(*model_, tables_),
       map_(*model_, tables_),
       trajectory_(trajectory_for(*model_, settings)),
@@ -59,6 +74,7 @@ void Player::reset() noexcept {
   decoder_.reset();
   styles_.reset();
   trajectory_.reset();
+  clock_.reset();
   taken_ = mapped_ = emitted_ = available_ = 0;
   latest_ = {};
 }
@@ -133,6 +149,17 @@ void Player::decide(int back, int state, std::span<const WeightedState> states,
   trajectory_.push(gaussian);
   ++mapped_;
   if (trajectory_.ready()) emit(trajectory_.generate());
+}
+
+void Player::follow_phase(std::span<const WeightedState> states, Decision& decision) noexcept {
+  const PhaseEstimate estimate = phase_.of(states, decision.progress);
+  decision.phase = estimate.phase;
+  decision.cadence = phase_.mean_cadence(decision.label);
+  if (!cyclic_) return;
+  clock_.advance(1 / model_->frame_rate);
+  clock_.observe(estimate.seen, estimate.certainty, estimate.age);
+  decision.phase = clock_.phase();
+  decision.cadence = clock_.cadence();
 }
 
 void Player::emit(const Eigen::Ref<const Eigen::MatrixXf>& statics) noexcept {

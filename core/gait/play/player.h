@@ -13,6 +13,7 @@
 #include "gait/play/covariance_map.h"
 #include "gait/play/decoder.h"
 #include "gait/play/emissions.h"
+#include "gait/play/phase_clock.h"
 #include "gait/play/phase_estimate.h"
 #include "gait/play/style_recogniser.h"
 #include "gait/play/table_maker.h"
@@ -37,7 +38,8 @@ struct Decision {
   int state = 0;  // within the label
   float log_likelihood = 0;
   float progress = 0;  // through the label, 0 to 1
-  float phase = 0;     // through the cycle of labels, 0 to 1
+  float phase = 0;     // through the cycle of labels, 0 to 1, smoothed by a phase clock
+  float cadence = 0;   // labels per second; of a walk, steps per second
   float distance = 0;  // of the observation from what was taught; about 1 for that
 };
 
@@ -91,6 +93,7 @@ class Player {
   void keep_tables_current() noexcept;
   // Decides about the frame taken `back` frames ago and maps it.
   void decide(int back, int state, std::span<const WeightedState> states, float progress) noexcept;
+  void follow_phase(std::span<const WeightedState> states, Decision& decision) noexcept;
   void emit(const Eigen::Ref<const Eigen::MatrixXf>& statics) noexcept;
   int slot(int back) const noexcept;
 
@@ -100,6 +103,8 @@ class Player {
   Emissions emissions_;
   Decoder decoder_;
   PhaseEstimator phase_;
+  PhaseClock clock_;
+  bool cyclic_;  // the labels form a cycle that a clock can follow
   StyleRecogniser styles_;
   CovarianceMap map_;
   Trajectory trajectory_;
