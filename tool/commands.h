@@ -22,5 +22,6 @@ class UsageError : public std::runtime_error {
 Command corpus_command(CLI::App& program);
 Command label_command(CLI::App& program);
 Command render_command(CLI::App& program);
+Command train_command(CLI::App& program);
 
 }  // namespace gait::tool

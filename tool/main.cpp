@@ -85,6 +85,7 @@ int main(int argc, char** argv) try {
   const std::vector<Command> commands = {
       gait::tool::corpus_command(program),
       gait::tool::label_command(program),
+      gait::tool::train_command(program),
       gait::tool::render_command(program),
   };
   for (const Command& command : commands)

@@ -1,0 +1,21 @@
+// How a model is played, as a subcommand's options: decoder, mapping, trajectory.
+#pragma once
+
+#include <CLI/CLI.hpp>
+#include <memory>
+#include <optional>
+#include <string>
+
+#include "gait/play/player.h"
+
+namespace gait::tool {
+
+// --decoder viterbi|forward|lag.
+void add_decoder(CLI::App& command, std::optional<DecoderKind>& decoder, const std::string& help);
+
+// Adds --decoder, --lag, --temper, --strength, --past, --current and --future.
+void add_play_options(CLI::App& command, PlayerSettings& settings);
+
+std::string decoder_name(DecoderKind kind);
+
+}  // namespace gait::tool

@@ -1,0 +1,208 @@
+#include "walk_files.h"
+
+#include <algorithm>
+#include <cctype>
+#include <cstdio>
+#include <map>
+#include <memory>
+#include <optional>
+#include <set>
+#include <system_error>
+
+#include "commands.h"
+#include "gait/error.h"
+#include "gait/motion/label_file.h"
+#include "manifest.h"
+#include "name_pattern.h"
+
+namespace gait::tool {
+
+namespace fs = std::filesystem;
+
+const char* const label_help =
+    "--label reads a file's name: {style}, {subject} and {speed} (m/s) are kept, {take} is a "
+    "whole\n"
+    "number, {*} anything or nothing, all else stands for itself. Where a name could be read in\n"
+    "several ways, fields are as short as possible from left to right. Without --label, files\n"
+    "named walk_STYLE_TAKE.bvh have their style.\n"
+    "A manifest is a CSV table with the columns file, style, subject, speed (any but file may be\n"
+    "missing); its files are found from its own folder. What it says counts before a name.\n"
+    "A label file beside a clip (same name, .txt or .lab) says when the feet touch.";
+
+namespace {
+
+constexpr const char* usual_pattern = "walk_{style}_{take}.bvh";
+
+bool is_bvh(const fs::path& path) {
+  std::string ending = path.extension().string();
+  std::transform(ending.begin(), ending.end(), ending.begin(),
+                 [](unsigned char c) { return static_cast<char>(std::tolower(c)); });
+  return ending == ".bvh";
+}
+
+std::vector<fs::path> bvh_files_in(const fs::path& folder) {
+  std::vector<fs::path> files;
+  try {
+    for (const auto& entry : fs::recursive_directory_iterator(folder))
+      if (is_bvh(entry.path()) && entry.is_regular_file()) files.push_back(entry.path());
+  } catch (const fs::filesystem_error& error) {
+    throw Error(folder.string() + ": cannot be searched: " + error.code().message());
+  }
+  if (files.empty()) throw Error(folder.string() + ": has no BVH files");
+  std::sort(files.begin(), files.end());
+  return files;
+}
+
+// The same file by whatever path it is named.
+fs::path identity(const fs::path& path) {
+  std::error_code failure;
+  const fs::path real = fs::weakly_canonical(path, failure);
+  return failure ? path.lexically_normal() : real;
+}
+
+// What is said of files before they are read.
+class Said {
+ public:
+  Said(const WalkReading& reading, const std::string& command)
+      : pattern_given_(!reading.pattern.empty()),
+        pattern_(pattern_given_ ? reading.pattern : usual_pattern) {
+    if (reading.manifest.empty()) return;
+    manifest_name_ = reading.manifest;
+    manifest_ = read_manifest(reading.manifest);
+    for (const std::string& warning : manifest_.warnings)
+      std::fprintf(stderr, "gait %s: warning: %s\n", command.c_str(), warning.c_str());
+    for (const ManifestEntry& entry : manifest_.entries) {
+      if (!fs::exists(entry.file))
+        throw Error(manifest_name_ + ":" + std::to_string(entry.line) + ": there is no file " +
+                    entry.file.string());
+      by_file_[identity(entry.file)] = &entry;
+    }
+  }
+
+  const Manifest& manifest() const { return manifest_; }
+
+  NameFields of(const fs::path& path, std::string& remark) const {
+    const auto add = [&](const std::string& text) {
+      remark += (remark.empty() ? "" : ", ") + text;
+    };
+    const auto named = pattern_.read(path.filename().string());
+    if (!named && pattern_given_) add("its name does not fit --label");
+    NameFields fields = named.value_or(NameFields{});
+    if (manifest_name_.empty()) return fields;
+    const auto entry = by_file_.find(identity(path));
+    if (entry == by_file_.end()) {
+      add("not in the manifest");
+      return fields;
+    }
+    const NameFields& written = entry->second->fields;
+    if (!written.style.empty()) fields.style = written.style;
+    if (!written.subject.empty()) fields.subject = written.subject;
+    if (written.speed) fields.speed = written.speed;
+    return fields;
+  }
+
+ private:
+  bool pattern_given_;
+  NamePattern pattern_;
+  std::string manifest_name_;
+  Manifest manifest_;
+  std::map<fs::path, const ManifestEntry*> by_file_;
+};
+
+std::vector<fs::path> files_meant(const WalkReading& reading, const Manifest& manifest) {
+  std::vector<fs::path> named;
+  for (const std::string& path : reading.paths) {
+    if (!fs::is_directory(path)) {
+      named.emplace_back(path);
+      continue;
+    }
+    const auto found = bvh_files_in(path);
+    named.insert(named.end(), found.begin(), found.end());
+  }
+  if (reading.paths.empty())
+    for (const ManifestEntry& entry : manifest.entries) named.push_back(entry.file);
+  std::set<fs::path> seen;
+  std::erase_if(named, [&](const fs::path& path) { return !seen.insert(identity(path)).second; });
+  return named;
+}
+
+// Contacts from a label file beside the clip, if there is one.
+std::vector<Contact> contacts_beside(const fs::path& path, const Clip& clip, std::string& remark) {
+  for (const char* ending : {".txt", ".lab"}) {
+    const fs::path labels = fs::path(path).replace_extension(ending);
+    if (!fs::is_regular_file(labels)) continue;
+    std::vector<Contact> contacts;
+    try {
+      contacts = contacts_from_labels(read_labels(labels).segments, clip.frame_rate);
+    } catch (const Error& error) {
+      const std::string text = error.what();
+      throw Error((text.starts_with(labels.string()) ? "" : labels.string() + ": ") + text +
+                  " (labels of " + path.filename().string() + "; --no-labels leaves them out)");
+    }
+    const std::string name = labels.filename().string();
+    if (contacts.empty()) {
+      remark += (remark.empty() ? "" : ", ") + name + " has no steps, contacts are found";
+      return contacts;
+    }
+    // The last step may end with the clip.
+    if (contacts.back().frame == clip.frames()) --contacts.back().frame;
+    if (contacts.back().frame >= clip.frames()) {
+      char text[128];
+      std::snprintf(text, sizeof text,
+                    ": expected steps within the clip's %.3f s, found one at %.3f s",
+                    clip.frames() / clip.frame_rate, contacts.back().frame / clip.frame_rate);
+      throw Error(labels.string() + text + " (labels of " + path.filename().string() +
+                  "; --no-labels leaves them out)");
+    }
+    remark += (remark.empty() ? "" : ", ") + std::string("contacts from ") + name;
+    return contacts;
+  }
+  return {};
+}
+
+}  // namespace
+
+void add_walk_reading(CLI::App& command, WalkReading& reading) {
+  command.add_option("CLIPS", reading.paths, "BVH files, or folders with some")
+      ->default_str("")
+      ->type_name("");
+  command
+      .add_option("--label", reading.pattern,
+                  "What file names say, e.g. 'walk_{style}_{take}.bvh' (see below)")
+      ->type_name("PATTERN");
+  command
+      .add_option("--manifest", reading.manifest,
+                  "CSV table of style, subject and speed; without CLIPS also of which clips")
+      ->type_name("FILE");
+  command.add_flag("--no-labels", reading.no_labels,
+                   "Find contacts in the motion even where a label file lies beside a clip");
+  add_clip_reading(command, reading.clip);
+}
+
+WalksRead read_walks(const WalkReading& reading, const std::string& command,
+                     const std::function<void(double, const std::string&)>& progress) {
+  if (reading.paths.empty() && reading.manifest.empty())
+    throw UsageError("no clips given: expected BVH files or folders, or a --manifest");
+  WalksRead read;
+  if (!reading.clip.roles.empty()) read.roles = read_role_table(reading.clip.roles);
+  const Said said(reading, command);
+  const std::vector<fs::path> files = files_meant(reading, said.manifest());
+  if (files.empty()) throw Error(reading.manifest + ": names no clips");
+  for (std::size_t i = 0; i < files.size(); ++i) {
+    const fs::path& path = files[i];
+    progress(static_cast<double>(i) / static_cast<double>(files.size()), path.filename().string());
+    WalkFile file{path, ""};
+    Walk walk;
+    walk.clip = read_clip(path, reading.clip, command).clip;
+    const NameFields fields = said.of(path, file.remark);
+    walk.style = fields.style;
+    walk.subject = fields.subject;
+    walk.speed = fields.speed;
+    if (!reading.no_labels) walk.contacts = contacts_beside(path, walk.clip, file.remark);
+    read.walks.push_back(std::move(walk));
+    read.files.push_back(std::move(file));
+  }
+  return read;
+}
+
+}  // namespace gait::tool
