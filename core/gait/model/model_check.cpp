@@ -1,0 +1,260 @@
+#include <Eigen/Cholesky>
+#include <algorithm>
+#include <cmath>
+#include <nlohmann/json.hpp>
+#include <set>
+
+#include "gait/error.h"
+#include "gait/model/covariance_check.h"
+#include "gait/model/model_file.h"
+
+namespace gait {
+
+namespace {
+
+// Playing works in float and sizes its buffers by these; all are far above what bodies need.
+constexpr double largest_number = 1e12;
+constexpr double least_deviation_kept = 1e-9;
+constexpr double longest_delay = 10;  // seconds of history, past, future, lag
+constexpr int most_values = 100'000;  // in a frame of all streams
+constexpr int most_states = 1000;     // over all labels
+
+[[noreturn]] void fail(const std::string& field, const std::string& what) {
+  throw Error(field + ": expected " + what);
+}
+
+std::string item(const std::string& list, std::size_t index) {
+  return list + '[' + std::to_string(index) + ']';
+}
+
+void expect_within(double value, double least, double most, const std::string& field) {
+  if (!(value >= least && value <= most)) {
+    char text[96];
+    std::snprintf(text, sizeof text, "a number from %g to %g, found %g", least, most, value);
+    fail(field, text);
+  }
+}
+
+void expect_number(double value, const std::string& field) {
+  expect_within(value, -largest_number, largest_number, field);
+}
+
+void expect_seconds(double value, const std::string& field) {
+  expect_within(value, 0, largest_number, field);
+}
+
+void expect_text(const std::string& text, const std::string& field) {
+  try {
+    (void)nlohmann::json(text).dump();  // refuses what is not UTF-8
+  } catch (const nlohmann::json::exception&) {
+    fail(field, "text in UTF-8");
+  }
+}
+
+void expect_texts(const std::vector<std::string>& texts, const std::string& field) {
+  for (std::size_t i = 0; i < texts.size(); ++i) expect_text(texts[i], item(field, i));
+}
+
+// Names by which one is told from another.
+void expect_names(const std::vector<std::string>& names, const std::string& field) {
+  expect_texts(names, field);
+  std::set<std::string> seen;
+  for (std::size_t i = 0; i < names.size(); ++i) {
+    if (names[i].empty()) fail(item(field, i), "a name, found none");
+    if (!seen.insert(names[i]).second)
+      fail(item(field, i), "a name of its own, found '" + names[i] + "' again");
+  }
+}
+
+void expect_values(const Eigen::Ref<const Eigen::MatrixXd>& values, Eigen::Index rows,
+                   Eigen::Index columns, const std::string& field) {
+  if (values.rows() != rows || values.cols() != columns)
+    fail(field, std::to_string(rows) + " by " + std::to_string(columns) + " values, found " +
+                    std::to_string(values.rows()) + " by " + std::to_string(values.cols()));
+  // Written so that NaN fails it.
+  if (!(values.array().abs() <= largest_number).all())
+    fail(field, "finite numbers up to 1e12, found others");
+}
+
+void expect_indices(const std::vector<int>& indices, int count, const std::string& field) {
+  std::set<int> seen;
+  for (std::size_t i = 0; i < indices.size(); ++i) {
+    if (indices[i] < 0 || indices[i] >= count)
+      fail(item(field, i), "an index from 0 to " + std::to_string(count - 1) + ", found " +
+                               std::to_string(indices[i]));
+    if (!seen.insert(indices[i]).second)
+      fail(item(field, i), "each index once, found " + std::to_string(indices[i]) + " again");
+  }
+}
+
+void check_streams(const std::vector<Stream>& streams, int values, const std::string& field) {
+  int sum = 0;
+  for (std::size_t i = 0; i < streams.size(); ++i) {
+    const Stream& stream = streams[i];
+    expect_text(stream.name, item(field, i) + ".name");
+    if (stream.kind != StreamKind::rotation && stream.kind != StreamKind::plain)
+      fail(item(field, i) + ".kind", "rotation or plain");
+    if (stream.kind == StreamKind::rotation && stream.size != 3)
+      fail(item(field, i) + ".size", "3, as rotations have, found " + std::to_string(stream.size));
+    if (stream.size < 1 || stream.size > most_values - sum)
+      fail(item(field, i) + ".size", "1 or more, and at most " + std::to_string(most_values) +
+                                         " of all streams, found " + std::to_string(stream.size));
+    sum += stream.size;
+  }
+  if (sum != values)
+    fail(field,
+         std::to_string(values) + " values, as the layout has, found " + std::to_string(sum));
+}
+
+void check_modelled(const std::vector<int>& modelled, int values, const std::string& field) {
+  expect_indices(modelled, values, field);
+  if (!std::ranges::is_sorted(modelled)) fail(field, "ascending indices");
+}
+
+void check_lags(const Model& model) {
+  const std::vector<int>& lags = model.input.lags;
+  for (std::size_t i = 0; i < lags.size(); ++i) {
+    expect_within(lags[i], 1, longest_delay * model.frame_rate, item("input.lags", i));
+    if (i > 0 && lags[i] <= lags[i - 1])
+      fail(item("input.lags", i), "ascending frames, found " + std::to_string(lags[i]));
+  }
+}
+
+void check_scaling(const Scaling& scaling, int size, const std::string& field) {
+  expect_values(scaling.mean, size, 1, field + ".mean");
+  expect_values(scaling.deviation, size, 1, field + ".deviation");
+  if (!(scaling.deviation.array() >= least_deviation_kept).all())
+    fail(field + ".deviation", "deviations above zero");
+}
+
+void check_state(const State& state, const Model& model, const std::string& field,
+                 CovarianceCheck& covariances) {
+  const int inputs = model.input.size(), all = inputs + model.output.size();
+  const auto styles = static_cast<Eigen::Index>(model.styles.size());
+  const int style_inputs = styles == 0 ? 0 : inputs, style_all = styles == 0 ? 0 : all;
+  expect_values(state.mean, all, 1, field + ".mean");
+  expect_values(state.covariance, all, all, field + ".covariance");
+  expect_values(state.style_means, style_all, styles, field + ".style_means");
+  expect_values(state.style_covariance, style_inputs, style_inputs, field + ".style_covariance");
+  covariances.expect(state.covariance, field + ".covariance");
+  covariances.expect(state.style_covariance, field + ".style_covariance");
+  if (!(state.stay > 0 && state.stay < 1))
+    fail(field + ".stay", "a probability between 0 and 1, found " + std::to_string(state.stay));
+  expect_seconds(state.duration, field + ".duration");
+  expect_within(state.weight, 0, largest_number, field + ".weight");
+}
+
+void check_labels(const Model& model) {
+  if (model.labels.empty()) fail("labels", "at least one, found none");
+  std::vector<std::string> names;
+  std::size_t states = 0;
+  for (const Label& label : model.labels) {
+    names.push_back(label.name);
+    states += label.states.size();
+  }
+  expect_names(names, "labels");
+  if (states > most_states)
+    fail("labels",
+         "at most " + std::to_string(most_states) + " states, found " + std::to_string(states));
+  CovarianceCheck covariances;
+  for (std::size_t i = 0; i < model.labels.size(); ++i) {
+    const Label& label = model.labels[i];
+    const std::string field = item("labels", i);
+    expect_indices(label.successors, static_cast<int>(model.labels.size()), field + ".successors");
+    expect_seconds(label.duration, field + ".duration");
+    expect_seconds(label.duration_deviation, field + ".duration_deviation");
+    expect_seconds(label.shortest, field + ".shortest");
+    expect_within(label.longest, label.shortest, largest_number, field + ".longest");
+    if (label.states.empty()) fail(field + ".states", "at least one, found none");
+    for (std::size_t k = 0; k < label.states.size(); ++k)
+      check_state(label.states[k], model, item(field + ".states", k), covariances);
+  }
+}
+
+void check_joints(const Body& body) {
+  const std::size_t joints = body.skeleton.joints.size();
+  if (joints == 0) fail("body.joints", "at least one, found none");
+  if (body.roles.size() != joints || body.references.size() != joints)
+    fail("body", "a role and a reference per joint");
+  for (std::size_t i = 0; i < joints; ++i) {
+    const Joint& joint = body.skeleton.joints[i];
+    const std::string field = item("body.joints", i);
+    expect_text(joint.name, field + ".name");
+    if (joint.parent < -1 || joint.parent >= static_cast<int>(i))
+      fail(field + ".parent",
+           "-1 or a joint before this one, found " + std::to_string(joint.parent));
+    expect_values(joint.offset, 3, 1, field + ".offset");
+    for (std::size_t tip = 0; tip < joint.tips.size(); ++tip)
+      expect_values(joint.tips[tip], 3, 1, item(field + ".tips", tip));
+    if (body.roles[i] < Role::none || body.roles[i] > Role::right_toes)
+      fail(field + ".role", "a joint's role");
+    if (!(std::abs(body.references[i].norm() - 1) < 1e-6))
+      fail(field + ".reference", "a unit quaternion");
+  }
+}
+
+void check_body(const Body& body, const Model& model) {
+  check_joints(body);
+  const auto check_side = [&](const std::vector<int>& joints, const std::vector<Stream>& streams,
+                              const std::string& field) {
+    expect_indices(joints, body.skeleton.size(), field);
+    const auto rotations = std::ranges::count(streams, StreamKind::rotation, &Stream::kind);
+    if (rotations != static_cast<std::ptrdiff_t>(joints.size()))
+      fail(field, std::to_string(rotations) + " joints, one per rotation stream, found " +
+                      std::to_string(joints.size()));
+  };
+  check_side(body.input_joints, model.inputs, "body.input_joints");
+  check_side(body.output_joints, model.outputs, "body.output_joints");
+  expect_within(body.heading_window, 1e-3, longest_delay, "body.heading_window");
+}
+
+void check_play(const PlayDefaults& play) {
+  if (play.decoder < DecoderKind::viterbi || play.decoder > DecoderKind::lag)
+    fail("play.decoder", "viterbi, forward or lag");
+  expect_within(play.lag, 0, longest_delay, "play.lag");
+  expect_within(play.temper, 0, 1000, "play.temper");
+  expect_within(play.past, 0, longest_delay, "play.past");
+  expect_within(play.future, 0, longest_delay, "play.future");
+  expect_within(play.strength, -1000, 1000, "play.strength");
+  expect_within(play.style_memory, 0, 1e6, "play.style_memory");
+  expect_within(play.style_temper, 0, 1000, "play.style_temper");
+}
+
+void check_training(const Training& training) {
+  expect_text(training.date, "training.date");
+  expect_text(training.comment, "training.comment");
+  expect_texts(training.clips, "training.clips");
+  expect_text(training.regularisation_chosen_by, "training.regularisation_chosen_by");
+  expect_within(training.regularisation, 0, largest_number, "training.regularisation");
+  for (const double value : training.log_likelihood)
+    expect_number(value, "training.log_likelihood");
+  for (const double value : training.penalised_log_likelihood)
+    expect_number(value, "training.penalised_log_likelihood");
+  expect_within(training.validated_error, 0, largest_number, "training.validated_error");
+  expect_within(training.validated_step_accuracy, 0, 1, "training.validated_step_accuracy");
+  expect_within(training.validated_style_accuracy, 0, 1, "training.validated_style_accuracy");
+  expect_within(training.validated_calibration_error, 0, 1, "training.validated_calibration_error");
+}
+
+}  // namespace
+
+void check_model(const Model& model) {
+  expect_text(model.name, "name");
+  expect_within(model.frame_rate, slowest_frame_rate, fastest_frame_rate, "frame_rate");
+  check_streams(model.inputs, model.input.values, "inputs");
+  check_streams(model.outputs, model.output.values, "outputs");
+  check_modelled(model.input.modelled, model.input.values, "input.modelled");
+  check_modelled(model.output.modelled, model.output.values, "output.modelled");
+  if (model.input.modelled.empty()) fail("input.modelled", "at least one value, found none");
+  check_lags(model);
+  check_scaling(model.input_scaling, model.input.size(), "input_scaling");
+  check_scaling(model.output_scaling, model.output.size(), "output_scaling");
+  expect_values(model.output_mean, model.output.values, 1, "output_mean");
+  expect_names(model.styles, "styles");
+  check_labels(model);
+  if (model.body) check_body(*model.body, model);
+  check_play(model.play);
+  check_training(model.training);
+}
+
+}  // namespace gait

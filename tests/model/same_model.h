@@ -1,0 +1,155 @@
+// Whether two models are the same to the bit. The structured bindings name every field: a field
+// that is added to the model without a place in its file does not compile here.
+#pragma once
+
+#include <gtest/gtest.h>
+
+#include <bit>
+#include <cstring>
+#include <type_traits>
+#include <vector>
+
+#include "gait/model/model.h"
+
+namespace gait::testing {
+
+template <typename Value>
+requires std::is_integral_v<Value> || std::is_enum_v<Value>
+void expect_same(Value a, Value b) { EXPECT_EQ(a, b); }
+
+inline void expect_same(double a, double b) {
+  EXPECT_EQ(std::bit_cast<std::uint64_t>(a), std::bit_cast<std::uint64_t>(b)) << a << ", " << b;
+}
+
+inline void expect_same(const std::string& a, const std::string& b) { EXPECT_EQ(a, b); }
+
+template <typename Derived>
+void expect_same(const Eigen::PlainObjectBase<Derived>& a,
+                 const Eigen::PlainObjectBase<Derived>& b) {
+  ASSERT_EQ(a.rows(), b.rows());
+  ASSERT_EQ(a.cols(), b.cols());
+  for (Eigen::Index i = 0; i < a.size(); ++i) expect_same(a.data()[i], b.data()[i]);
+}
+
+inline void expect_same(const Eigen::Quaterniond& a, const Eigen::Quaterniond& b) {
+  expect_same(a.coeffs(), b.coeffs());
+}
+
+inline void expect_same(const Stream& a, const Stream& b) {
+  const auto& [name, size, kind] = a;
+  EXPECT_EQ(name, b.name);
+  EXPECT_EQ(size, b.size);
+  EXPECT_EQ(kind, b.kind);
+}
+
+inline void expect_same(const Joint& a, const Joint& b);
+inline void expect_same(const State& a, const State& b);
+inline void expect_same(const Label& a, const Label& b);
+
+template <typename Value>
+void expect_same(const std::vector<Value>& a, const std::vector<Value>& b) {
+  ASSERT_EQ(a.size(), b.size());
+  for (std::size_t i = 0; i < a.size(); ++i) expect_same(a[i], b[i]);
+}
+
+inline void expect_same(const Joint& a, const Joint& b) {
+  const auto& [name, parent, offset, tips] = a;
+  expect_same(name, b.name);
+  expect_same(parent, b.parent);
+  expect_same(offset, b.offset);
+  expect_same(tips, b.tips);
+}
+
+inline void expect_same(const State& a, const State& b) {
+  const auto& [mean, covariance, stay, duration, weight, style_means, style_covariance] = a;
+  expect_same(mean, b.mean);
+  expect_same(covariance, b.covariance);
+  expect_same(stay, b.stay);
+  expect_same(duration, b.duration);
+  expect_same(weight, b.weight);
+  expect_same(style_means, b.style_means);
+  expect_same(style_covariance, b.style_covariance);
+}
+
+inline void expect_same(const Label& a, const Label& b) {
+  const auto& [name, successors, states, duration, deviation, shortest, longest] = a;
+  expect_same(name, b.name);
+  expect_same(successors, b.successors);
+  expect_same(states, b.states);
+  expect_same(duration, b.duration);
+  expect_same(deviation, b.duration_deviation);
+  expect_same(shortest, b.shortest);
+  expect_same(longest, b.longest);
+}
+
+inline void expect_same(const Body& a, const Body& b) {
+  const auto& [skeleton, roles, references, input_joints, output_joints, heading_window] = a;
+  expect_same(skeleton.joints, b.skeleton.joints);
+  expect_same(roles, b.roles);
+  expect_same(references, b.references);
+  expect_same(input_joints, b.input_joints);
+  expect_same(output_joints, b.output_joints);
+  expect_same(heading_window, b.heading_window);
+}
+
+inline void expect_same(const PlayDefaults& a, const PlayDefaults& b) {
+  const auto& [decoder, lag, temper, past, future, strength, style_memory, style_temper] = a;
+  expect_same(decoder, b.decoder);
+  expect_same(lag, b.lag);
+  expect_same(temper, b.temper);
+  expect_same(past, b.past);
+  expect_same(future, b.future);
+  expect_same(strength, b.strength);
+  expect_same(style_memory, b.style_memory);
+  expect_same(style_temper, b.style_temper);
+}
+
+inline void expect_same(const Training& a, const Training& b) {
+  const auto& [date, comment, clips, regularisation, chosen_by, likelihood, penalised, error,
+               step_accuracy, style_accuracy, calibration_error, synthetic] = a;
+  expect_same(date, b.date);
+  expect_same(comment, b.comment);
+  expect_same(clips, b.clips);
+  expect_same(regularisation, b.regularisation);
+  expect_same(chosen_by, b.regularisation_chosen_by);
+  expect_same(likelihood, b.log_likelihood);
+  expect_same(penalised, b.penalised_log_likelihood);
+  expect_same(error, b.validated_error);
+  expect_same(step_accuracy, b.validated_step_accuracy);
+  expect_same(style_accuracy, b.validated_style_accuracy);
+  expect_same(calibration_error, b.validated_calibration_error);
+  expect_same(synthetic, b.synthetic);
+}
+
+inline void expect_same(const Scaling& a, const Scaling& b) {
+  const auto& [mean, deviation] = a;
+  expect_same(mean, b.mean);
+  expect_same(deviation, b.deviation);
+}
+
+inline void expect_same(const Model& a, const Model& b) {
+  const auto& [name, frame_rate, inputs, outputs, input, output, input_scaling, output_scaling,
+               output_mean, labels, styles, body, play, training] = a;
+  expect_same(name, b.name);
+  expect_same(frame_rate, b.frame_rate);
+  expect_same(inputs, b.inputs);
+  expect_same(outputs, b.outputs);
+  const auto& [input_values, input_modelled, lags] = input;
+  expect_same(input_values, b.input.values);
+  expect_same(input_modelled, b.input.modelled);
+  expect_same(lags, b.input.lags);
+  const auto& [output_values, output_modelled] = output;
+  expect_same(output_values, b.output.values);
+  expect_same(output_modelled, b.output.modelled);
+  expect_same(input_scaling, b.input_scaling);
+  expect_same(output_scaling, b.output_scaling);
+  expect_same(output_mean, b.output_mean);
+  expect_same(labels, b.labels);
+  expect_same(styles, b.styles);
+  ASSERT_EQ(body.has_value(), b.body.has_value());
+  if (body) expect_same(*body, *b.body);
+  expect_same(play, b.play);
+  expect_same(training, b.training);
+}
+
+}  // namespace gait::testing
