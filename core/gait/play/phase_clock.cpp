@@ -19,7 +19,7 @@ constexpr double astray = 0.15;           // cycles off that are no noise
 constexpr double patience = 0.5;          // cycles of being astray before the loop begins anew
 constexpr double phase_doubt = 0.3;       // deviations at a beginning: cycles
 constexpr double frequency_doubt = 0.25;  // and share of the frequency
-constexpr double other_tempo = 0.2;       // share by which a contact's interval must differ
+constexpr double other_tempo = 1.5;       // ratio of a step's to the loop's; a limp is none
 constexpr double longest_move = 0.002;    // seconds at once
 constexpr double longest_advance = 60;    // seconds; who was away longer has lost the walk anyway
 
@@ -50,7 +50,7 @@ PhaseClock::PhaseClock(const PhaseClockSettings& settings) : settings_(settings)
 }
 
 void PhaseClock::reset() noexcept {
-  started_ = false;
+  moved_ = false;
   walking_ = true;
   going_ = 1;
   lead_ = ramp_ = time_ = 0;
@@ -89,6 +89,7 @@ void PhaseClock::set_pull(double pull) noexcept {
 void PhaseClock::set_walking(bool walking) noexcept {
   if (walking == walking_) return;
   walking_ = walking;
+  if (!moved_) going_ = walking;
   lead_ = 0;
   contact_time_ = -1;
   doubt();
@@ -117,9 +118,8 @@ void PhaseClock::predict(double until) noexcept {
 }
 
 void PhaseClock::correct(double phase, double deviation, double late) noexcept {
-  if (!started_) {
+  if (!moved_) {
     // Nothing has been heard yet: the ramp begins where the walk is.
-    started_ = true;
     ramp_ = phase + frequency_ * late;
     ramp_ -= std::floor(ramp_);
     if (ramp_ >= 1) ramp_ = 0;
@@ -179,7 +179,8 @@ void PhaseClock::touch(double phase, double late) noexcept {
     travelled -= std::ceil(travelled) - 1;  // more than 0, up to 1
     const double frequency = travelled / (time - contact_time_);
     if (!(time > contact_time_) || frequency > settings_.fastest) return;
-    if (frequency > settings_.slowest && std::abs(frequency / frequency_ - 1) > other_tempo) {
+    if (frequency > settings_.slowest &&
+        std::max(frequency / frequency_, frequency_ / frequency) > other_tempo) {
       // Another tempo altogether: what was known of the phase led elsewhere.
       frequency_ = frequency;
       doubt();
@@ -187,7 +188,8 @@ void PhaseClock::touch(double phase, double late) noexcept {
   }
   contact_time_ = time;
   contact_phase_ = phase;
-  correct(phase, settings_.contact_noise / pull_, late);
+  // A hair before it, so that it is heard also when the ramp begins here.
+  correct(phase - 1e-9, settings_.contact_noise / pull_, late);
 }
 
 void PhaseClock::move(double seconds, int sample) noexcept {
@@ -197,6 +199,7 @@ void PhaseClock::move(double seconds, int sample) noexcept {
   const double speed = going_ * std::clamp(frequency_ + lead_ / std::max(catch_up, seconds),
                                            slowest_ramp * frequency_, fastest_ramp * frequency_);
   ramp_ += speed * seconds;
+  moved_ = moved_ || speed > 0;
   if (walking_) lead_ += (frequency_ - speed) * seconds;
   while (ramp_ * settings_.steps >= next_step_) {
     if (next_step_ == settings_.steps) ramp_ -= 1, next_step_ = 0;

@@ -4,7 +4,8 @@
 // each estimate with the gains of a Kalman filter whose frequency wanders: fast at first, then as
 // slow as the estimates' noise asks for, right for irregular and lost estimates too. The ramp that
 // is heard follows the loop at 0.2 to 2 times its frequency, so it never jumps and never runs
-// backwards, and meets each contact once a cycle. When estimates cease it goes on by itself.
+// backwards, and meets each contact once a cycle. As long as it has not moved, it begins where the
+// first estimate says; when estimates cease, it goes on by itself.
 //
 // Phase in cycles, 0 to 1, where step i of the cycle begins at i / steps (right contact 0, left
 // 0.5); frequency in cycles per second, cadence in steps per second. Never allocates.
@@ -77,7 +78,7 @@ class PhaseClock {
 
   PhaseClockSettings settings_;
   double pull_ = 1;
-  bool walking_ = true, started_ = false;
+  bool walking_ = true, moved_ = false;
 
   // The loop: where it was at the moment the last estimate spoke of, from where it runs at its
   // frequency. Now it is `lead_` ahead of the ramp.
