@@ -1,0 +1,27 @@
+// A model of walking from captured walks: the labels right and left that follow each other, learnt
+// from the walks' sequences, with everything that was not said chosen by cross-validation.
+#pragma once
+
+#include <string>
+
+#include "gait/judge/model_selection.h"
+#include "gait/learn/walk_sequences.h"
+
+namespace gait {
+
+// What a model says of where it comes from.
+struct ModelOrigin {
+  std::string name = "walk";
+  std::string date;        // free text, best as 2026-01-31T12:00:00Z
+  std::string comment;     // a sentence for whoever opens it
+  bool synthetic = false;  // nobody walked the walks
+};
+
+// Steps of walking, the default instance of labels: 0 right, 1 left, each followed by the other.
+LearningTask walking_task(const WalkSequences& walks);
+
+// Learns the model with its body. Throws Error as select_model does.
+Selected select_walk_model(const WalkSequences& walks, const SelectionOptions& options,
+                           const ModelOrigin& origin = {});
+
+}  // namespace gait
