@@ -1,0 +1,36 @@
+#include "gait/corpus/demo_model.h"
+
+#include "gait/corpus/corpus.h"
+#include "gait/judge/walk_model.h"
+#include "gait/model/model_file.h"
+
+namespace gait {
+
+namespace {
+
+// What cross-validation finds on the corpus, kept so that the model is there at once.
+constexpr double regularisation = 10;
+constexpr int rounds = 0;
+
+}  // namespace
+
+Model make_demo_model(int threads) {
+  std::vector<Walk> walks;
+  for (CorpusWalk& walk : make_corpus())
+    walks.push_back({std::move(walk.clip), walk.style, {}, {}, std::move(walk.contacts)});
+  SelectionOptions options;
+  options.regularisation = regularisation;
+  options.rounds = rounds;
+  options.learning.hmm.threads = threads;
+  ModelOrigin origin;
+  origin.name = demo_model_name;
+  origin.comment = corpus_notice;
+  origin.synthetic = true;
+  return select_walk_model(walk_sequences(walks, {}), options, origin).model;
+}
+
+Model model_named(const std::string& name_or_path) {
+  return name_or_path == demo_model_name ? make_demo_model() : read_model(name_or_path);
+}
+
+}  // namespace gait
