@@ -198,15 +198,20 @@ TEST(PhaseClock, estimates_that_are_known_to_be_late_leave_the_ramp_on_time) {
   EXPECT_LE(steepest_step(record, 2, 14), 3);
 }
 
-TEST(PhaseClock, finds_the_walk_again_when_it_is_half_a_cycle_off) {
+TEST(PhaseClock, finds_the_walk_again_however_far_it_is_off_without_running_back) {
   const double frequency = 0.9;
-  PhaseClock clock;
-  const KnownWalk before({{0, frequency}}), after({{-0.5 / frequency, frequency}});
-  const StageRecord record =
-      play(clock, estimates_of(before, 0, 6, {}) + estimates_of(after, 6, 14, {}), 14);
-  EXPECT_LE(rms_error(record, before, 3, 6), 0.02);
-  EXPECT_LE(rms_error(record, after, 6 + 2 / frequency, 14), 0.02);
-  expect_right_and_left_in_turn(record);
+  for (const double off : {-0.4, -0.25, 0.25, 0.4, 0.5}) {
+    PhaseClock clock;
+    const KnownWalk before({{0, frequency}}), after({{-off / frequency, frequency}});
+    const StageRecord record =
+        play(clock, estimates_of(before, 0, 6, {}) + estimates_of(after, 6, 14, {}), 14);
+    EXPECT_LE(rms_error(record, before, 3, 6), 0.02);
+    EXPECT_LE(rms_error(record, after, 6 + 2 / frequency, 14), 0.02) << off;
+    expect_right_and_left_in_turn(record);
+    const double steepest = steepest_step(record, 1, 14);
+    EXPECT_GT(steepest, 0) << "it ran backwards, " << off;
+    EXPECT_LE(steepest, 4) << off;  // not steady walking: it hurries to catch up
+  }
 }
 
 TEST(PhaseClock, one_wild_estimate_does_not_throw_it) {

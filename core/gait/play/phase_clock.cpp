@@ -15,8 +15,6 @@ constexpr double catch_up = 0.05;                       // seconds in which the 
 constexpr double come_to_rest = 0.05;                   // seconds, time constant of stopping
 constexpr double at_rest = 1e-3;          // share of the frequency that counts as zero
 constexpr double believed = 3;            // deviations beyond which an estimate counts as if nearer
-constexpr double astray = 0.15;           // cycles off that are no noise
-constexpr double patience = 0.5;          // cycles of being astray before the loop begins anew
 constexpr double phase_doubt = 0.3;       // deviations at a beginning: cycles
 constexpr double frequency_doubt = 0.25;  // and share of the frequency
 constexpr double other_tempo = 1.5;       // ratio of a step's to the loop's; a limp is none
@@ -65,7 +63,6 @@ void PhaseClock::reset() noexcept {
 void PhaseClock::doubt() noexcept {
   phase_variance_ = square(phase_doubt);
   forget_frequency();
-  astray_since_ = -1;
 }
 
 // The loop goes on from where it is now, at a frequency that is a guess.
@@ -131,12 +128,6 @@ void PhaseClock::correct(double phase, double deviation, double late) noexcept {
   const double then = time_ - late;
   predict(then);
   const double difference = around(phase - (loop_phase_ - (loop_time_ - then) * frequency_));
-  if (std::abs(difference) < astray)
-    astray_since_ = -1;
-  else if (astray_since_ < 0)
-    astray_since_ = time_;
-  else if ((time_ - astray_since_) * frequency_ > patience)
-    doubt();
   const double variance = phase_variance_ + square(deviation);
   const double limit = believed * std::sqrt(variance);
   const double error = std::clamp(difference, -limit, limit);

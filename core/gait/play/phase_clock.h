@@ -84,7 +84,6 @@ class PhaseClock {
   // frequency. Now it is `lead_` ahead of the ramp.
   double loop_phase_ = 0, loop_time_ = 0, frequency_ = 1, lead_ = 0;
   double phase_variance_ = 0, covariance_ = 0, frequency_variance_ = 0;
-  double astray_since_ = -1;  // when estimates began to contradict, -1: they do not
 
   // The ramp.
   double ramp_ = 0;
