@@ -23,5 +23,6 @@ Command corpus_command(CLI::App& program);
 Command label_command(CLI::App& program);
 Command render_command(CLI::App& program);
 Command train_command(CLI::App& program);
+Command info_command(CLI::App& program);
 
 }  // namespace gait::tool

@@ -86,6 +86,7 @@ int main(int argc, char** argv) try {
       gait::tool::corpus_command(program),
       gait::tool::label_command(program),
       gait::tool::train_command(program),
+      gait::tool::info_command(program),
       gait::tool::render_command(program),
   };
   for (const Command& command : commands)

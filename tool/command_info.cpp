@@ -1,0 +1,238 @@
+// gait info: everything a model knows of itself.
+#include <cmath>
+#include <cstdio>
+#include <memory>
+#include <nlohmann/json.hpp>
+#include <numbers>
+#include <string>
+#include <vector>
+
+#include "commands.h"
+#include "gait/corpus/demo_model.h"
+#include "gait/model/model_words.h"
+#include "play_options.h"
+
+namespace gait::tool {
+
+namespace {
+
+using nlohmann::ordered_json;
+
+constexpr double degrees = 180 / std::numbers::pi;
+
+struct InfoOptions {
+  std::string model;
+  bool json = false;
+};
+
+std::string joined(const std::vector<std::string>& words) {
+  std::string text;
+  for (const std::string& word : words) text += (text.empty() ? "" : ", ") + word;
+  return text;
+}
+
+std::vector<std::string> names_of(const std::vector<Stream>& streams) {
+  std::vector<std::string> names;
+  for (const Stream& stream : streams) names.push_back(stream.name);
+  return names;
+}
+
+std::vector<std::string> successors_of(const Model& model, const Label& label) {
+  std::vector<std::string> names;
+  for (const int successor : label.successors) names.push_back(model.labels[successor].name);
+  return names;
+}
+
+std::string_view kind_name(StreamKind kind) {
+  for (const auto& [known, word] : stream_kind_words)
+    if (known == kind) return word;
+  return "";
+}
+
+void print_row(const char* what, const std::string& text) {
+  std::printf("%-14s %s\n", what, text.c_str());
+}
+
+std::string number(double value) {
+  char text[32];
+  std::snprintf(text, sizeof text, "%.4g", value);
+  return text;
+}
+
+void print_streams(const char* what, const std::vector<Stream>& streams, int values, int moving) {
+  print_row(what, std::to_string(streams.size()) + " streams, " + std::to_string(values) +
+                      " values, " + std::to_string(moving) + " of them move");
+  print_row("", joined(names_of(streams)));
+}
+
+void print_labels(const Model& model) {
+  print_row("labels", std::to_string(model.labels.size()) + ", with " +
+                          std::to_string(model.states()) + " states together");
+  for (const Label& label : model.labels) {
+    const std::string next = joined(successors_of(model, label));
+    std::printf("  %-12s %zu states, %.3f s (deviation %.3f, from %.3f to %.3f), then %s\n",
+                label.name.c_str(), label.states.size(), label.duration, label.duration_deviation,
+                label.shortest, label.longest, next.empty() ? "nothing" : next.c_str());
+    std::printf("  %-12s states last", "");
+    for (const State& state : label.states) std::printf(" %.3f", state.duration);
+    std::printf(" s\n");
+  }
+}
+
+void print_play(const PlayDefaults& play) {
+  std::string decoder = decoder_name(play.decoder);
+  if (play.decoder == DecoderKind::lag) decoder += ", " + number(play.lag) + " s late";
+  if (play.decoder == DecoderKind::forward) decoder += ", tempered by " + number(play.temper);
+  print_row("decoder", decoder);
+  print_row("mapping", "strength " + number(play.strength));
+  print_row("trajectory",
+            number(play.past) + " s of past, " + number(play.future) + " s of future");
+  print_row("style scores", "remembered for " + number(play.style_memory) + " s, tempered by " +
+                                number(play.style_temper));
+}
+
+void print_training(const Training& training) {
+  if (!training.date.empty()) print_row("trained", training.date);
+  print_row("from", std::to_string(training.clips.size()) + " clips");
+  for (const std::string& clip : training.clips) print_row("", clip);
+  print_row("regularisation",
+            number(training.regularisation) + (training.regularisation_chosen_by.empty()
+                                                   ? ""
+                                                   : ", " + training.regularisation_chosen_by));
+  if (!training.log_likelihood.empty())
+    print_row("Baum-Welch", std::to_string(training.log_likelihood.size()) +
+                                " rounds, log-likelihood " +
+                                number(training.log_likelihood.back()));
+  if (training.validated_step_accuracy <= 0) {
+    print_row("validated", "no");
+    return;
+  }
+  char text[160];
+  std::snprintf(text, sizeof text, "on held-out clips: error %.2f deg, step accuracy %.3f",
+                training.validated_error * degrees, training.validated_step_accuracy);
+  print_row("validated", text);
+  if (training.validated_style_accuracy > 0) {
+    std::snprintf(text, sizeof text, "style accuracy %.3f, calibration error %.3f",
+                  training.validated_style_accuracy, training.validated_calibration_error);
+    print_row("", text);
+  }
+}
+
+void print_text(const Model& model) {
+  print_row("model", model.name);
+  if (!model.training.comment.empty()) print_row("", model.training.comment);
+  print_row("data", model.training.synthetic ? "SYNTHETIC: nobody walked these walks"
+                                             : "captured, as far as its maker said");
+  print_row("rate", number(model.frame_rate) + " frames/s");
+  print_row("body", model.body ? std::to_string(model.body->skeleton.size()) + " joints"
+                               : "none: its streams are plain values");
+  print_streams("inputs", model.inputs, model.input.values, model.input.statics());
+  std::string history;
+  for (const int lag : model.input.lags)
+    history += (history.empty() ? "" : ", ") + number(1000 * lag / model.frame_rate);
+  print_row("", history.empty() ? "each frame by itself" : "compared with " + history + " ms ago");
+  print_streams("outputs", model.outputs, model.output.values, model.output.statics());
+  print_labels(model);
+  print_row("styles", model.styles.empty() ? "none" : joined(model.styles));
+  std::printf("\nPlayed, unless told otherwise:\n");
+  print_play(model.play);
+  std::printf("\n");
+  print_training(model.training);
+}
+
+ordered_json as_json(const std::vector<Stream>& streams, int values, int moving) {
+  ordered_json list = ordered_json::array();
+  for (const Stream& stream : streams)
+    list.push_back(
+        {{"name", stream.name}, {"size", stream.size}, {"kind", kind_name(stream.kind)}});
+  return {{"streams", list}, {"values", values}, {"values_moving", moving}};
+}
+
+ordered_json as_json(const Training& training) {
+  ordered_json validated = nullptr;
+  if (training.validated_step_accuracy > 0)
+    validated = {{"output_error_deg", training.validated_error * degrees},
+                 {"step_accuracy", training.validated_step_accuracy},
+                 {"style_accuracy", training.validated_style_accuracy},
+                 {"calibration_error", training.validated_calibration_error}};
+  return {{"date", training.date},
+          {"clips", training.clips},
+          {"regularisation", training.regularisation},
+          {"regularisation_chosen_by", training.regularisation_chosen_by},
+          {"log_likelihood", training.log_likelihood},
+          {"penalised_log_likelihood", training.penalised_log_likelihood},
+          {"validated", validated}};
+}
+
+void print_json(const Model& model) {
+  ordered_json labels = ordered_json::array(), lags = ordered_json::array();
+  for (const Label& label : model.labels) {
+    ordered_json states = ordered_json::array();
+    for (const State& state : label.states)
+      states.push_back({{"seconds", state.duration}, {"weight", state.weight}});
+    labels.push_back({{"name", label.name},
+                      {"successors", successors_of(model, label)},
+                      {"states", states},
+                      {"seconds", label.duration},
+                      {"seconds_deviation", label.duration_deviation},
+                      {"seconds_shortest", label.shortest},
+                      {"seconds_longest", label.longest}});
+  }
+  for (const int lag : model.input.lags) lags.push_back(1000 * lag / model.frame_rate);
+  ordered_json joints = nullptr;
+  if (model.body) {
+    joints = ordered_json::array();
+    for (int joint = 0; joint < model.body->skeleton.size(); ++joint)
+      joints.push_back({{"name", model.body->skeleton.joints[joint].name},
+                        {"role", role_name(model.body->roles[joint])}});
+  }
+  const PlayDefaults& play = model.play;
+  const ordered_json report{
+      {"name", model.name},
+      {"comment", model.training.comment},
+      {"synthetic", model.training.synthetic},
+      {"frame_rate", model.frame_rate},
+      {"joints", joints},
+      {"inputs", as_json(model.inputs, model.input.values, model.input.statics())},
+      {"history_ms", lags},
+      {"outputs", as_json(model.outputs, model.output.values, model.output.statics())},
+      {"labels", labels},
+      {"styles", model.styles},
+      {"play",
+       {{"decoder", decoder_name(play.decoder)},
+        {"lag", play.lag},
+        {"temper", play.temper},
+        {"past", play.past},
+        {"future", play.future},
+        {"strength", play.strength},
+        {"style_memory", play.style_memory},
+        {"style_temper", play.style_temper}}},
+      {"training", as_json(model.training)}};
+  std::puts(report.dump(2, ' ', false, nlohmann::json::error_handler_t::replace).c_str());
+}
+
+}  // namespace
+
+Command info_command(CLI::App& program) {
+  const auto options = std::make_shared<InfoOptions>();
+  CLI::App* app = program.add_subcommand("info", "Say what is in a model");
+  app->add_option("MODEL", options->model, "Model file, or gait-demo: the one that is built in")
+      ->required()
+      ->default_str("")
+      ->type_name("");
+  app->add_flag("--json", options->json, "Report as JSON");
+  app->footer(
+      "Durations are in seconds, angles in degrees.\n\n"
+      "Examples:\n"
+      "  gait info walks.gait\n"
+      "  gait info gait-demo --json");
+  return {app, [options] {
+            const Model model = model_named(options->model);
+            if (options->json)
+              print_json(model);
+            else
+              print_text(model);
+          }};
+}
+
+}  // namespace gait::tool
