@@ -11,6 +11,10 @@ int frames_in(double seconds, double frame_rate) {
   return std::max(0, static_cast<int>(std::lround(seconds * frame_rate)));
 }
 
+int history_of(const Model& model) {
+  return model.input.lags.empty() ? 0 : model.input.lags.back();
+}
+
 Decoder decoder_for(const Model& model, const PlayerSettings& settings,
                     std::shared_ptr<const StateTables> tables) {
   return Decoder(std::move(tables), settings.decoder.value_or(model.play.decoder),
@@ -55,7 +59,7 @@ Player::Player(std::shared_ptr<const Model> model, const PlayerSettings& setting
       maker_(model_),
       values_(model_->input.values, 0.0f),
       missing_(values_.size(), false),
-      returned_(values_.size(), 0),
+      returned_(values_.size(), history_of(*model_) + 1),
       wanted_(values_.size(), false),
       masked_(values_.size(), false) {
   if (settings.strength) map_.set_strength(static_cast<float>(*settings.strength));
@@ -92,31 +96,33 @@ std::span<const float> Player::styles(int i) const noexcept {
   return ring_[output_slots_[i]].styles;
 }
 
-void Player::set_missing(int value, bool missing) noexcept {
-  if (missing_[value] && !missing) returned_[value] = 0;
-  missing_[value] = missing;
-}
+void Player::set_missing(int value, bool missing) noexcept { missing_[value] = missing; }
 
 void Player::hold_missing(std::span<const float> values) noexcept {
-  const int history = model_->input.lags.empty() ? 0 : model_->input.lags.back();
+  const int history = history_of(*model_);
   for (std::size_t i = 0; i < values_.size(); ++i) {
-    if (!missing_[i]) {
-      values_[i] = values[i];
+    // What is not a number would stay in the decoder's paths for ever.
+    const bool there = !missing_[i] && std::isfinite(values[i]);
+    if (there) values_[i] = values[i];
+    if (missing_[i])
+      returned_[i] = 0;
+    else
       returned_[i] = std::min(returned_[i] + 1, history + 1);
-    }
     // One that came back is left out until its differences no longer reach into the gap.
-    wanted_[i] = missing_[i] || (masked_[i] && returned_[i] <= history);
+    wanted_[i] = returned_[i] <= history;
   }
 }
 
 void Player::keep_tables_current() noexcept {
-  if (const auto fresh = maker_.ready()) {
-    emissions_.use(fresh);
-    decoder_.use(fresh);
-    styles_.use(fresh);
-    map_.use(fresh);
+  if (maker_.finished()) {
+    if (const auto fresh = maker_.ready()) {
+      emissions_.use(fresh);
+      decoder_.use(fresh);
+      styles_.use(fresh);
+      map_.use(fresh);
+    }
+    maker_.take(tables_);
   }
-  maker_.take(tables_);
   if (wanted_ != masked_ && maker_.ask(wanted_))
     for (std::size_t i = 0; i < wanted_.size(); ++i) masked_[i] = wanted_[i];
 }
@@ -142,8 +148,12 @@ void Player::decide(int back, int state, std::span<const WeightedState> states,
   const int label = tables_->states[state].label;
   styles_.advance(states, held.x, held.known);
   const OutputGaussian& gaussian = map_.map(states, held.x, held.known);
-  held.decision = {label,    state - tables_->first_state[label], decoder_.log_likelihood(),
-                   progress, phase_.of(states, progress).phase,   map_.distance()};
+  held.decision.label = label;
+  held.decision.state = state - tables_->first_state[label];
+  held.decision.log_likelihood = decoder_.log_likelihood();
+  held.decision.progress = progress;
+  held.decision.distance = map_.distance();
+  follow_phase(states, held.decision);
   std::copy(styles_.posteriors().begin(), styles_.posteriors().end(), held.styles.begin());
   latest_ = held.decision;
   trajectory_.push(gaussian);

@@ -50,8 +50,8 @@ class Player {
   Player(std::shared_ptr<const Model> model, const PlayerSettings& settings = {},
          std::shared_ptr<const StateTables> tables = nullptr);
 
-  // Takes the next frame: model.input.values values, missing ones ignored. Afterwards `available`
-  // frames can be read.
+  // Takes the next frame: model.input.values values, missing ones ignored; one that is not finite
+  // is as the frame before had it. Afterwards `available` frames can be read.
   void advance(std::span<const float> values) noexcept;
   // After the last frame, until reset: hands out what delays still hold back. False when there is
   // nothing more; else frames are `available`.
@@ -112,7 +112,7 @@ class Player {
 
   std::vector<float> values_;          // held values, one per input value
   std::vector<bool> missing_;          // as told
-  std::vector<int> returned_;          // frames since a value came back
+  std::vector<int> returned_;          // real frames in a row, up to the history and one
   std::vector<bool> wanted_, masked_;  // masks: that should be, that is in the tables or asked for
   std::vector<Held> ring_;
   int newest_ = 0;

@@ -26,7 +26,11 @@ class TableMaker {
   // handed back to be freed by the worker; nobody else may still use them.
   bool take(std::shared_ptr<const StateTables>& current) noexcept;
 
-  // Look at the result before it is taken, so that all its users can change over. Null: none.
+  // Whether the worker is done with the last request; it stays so until the result is taken.
+  bool finished() const noexcept { return state_.load(std::memory_order_acquire) == done; }
+
+  // Look at the result before it is taken, so that all its users can change over. Null: none, or
+  // nothing could be made.
   std::shared_ptr<const StateTables> ready() const noexcept;
 
  private:
