@@ -17,6 +17,14 @@ const Body& body_of(const Model& model) {
   return *model.body;
 }
 
+// From `above` to `joint`, over whatever joints a rig has between hips and thigh.
+Eigen::Vector3d place_at_rest(const Skeleton& skeleton, int joint, int above) {
+  Eigen::Vector3d place = Eigen::Vector3d::Zero();
+  for (; joint >= 0 && joint != above; joint = skeleton.joints[joint].parent)
+    place += skeleton.joints[joint].offset;
+  return place;
+}
+
 }  // namespace
 
 Reconstructor::Reconstructor(std::shared_ptr<const Model> model, const PlayerSettings& settings)
@@ -29,8 +37,8 @@ Reconstructor::Reconstructor(std::shared_ptr<const Model> model, const PlayerSet
   const Body& body = *model->body;
   for (const auto& reference : body.references) references_.push_back(reference.cast<float>());
   const JointRoles roles = body_roles(body);
-  right_to_left_thigh_ = (body.skeleton.joints[roles.left.thigh].offset -
-                          body.skeleton.joints[roles.right.thigh].offset)
+  right_to_left_thigh_ = (place_at_rest(body.skeleton, roles.left.thigh, roles.hips) -
+                          place_at_rest(body.skeleton, roles.right.thigh, roles.hips))
                              .cast<float>();
   const auto hips = std::find(body.input_joints.begin(), body.input_joints.end(), roles.hips);
   if (hips != body.input_joints.end())
@@ -59,6 +67,9 @@ void Reconstructor::set_missing(int input, bool missing) noexcept {
 FrameClock::Arrival Reconstructor::push(double time,
                                         std::span<const Eigen::Quaternionf> inputs) noexcept {
   if (inputs.size() != usable_.size()) return FrameClock::Arrival::rejected;
+  // Before anything is held: a joint that goes missing later would keep what is not a number.
+  for (std::size_t i = 0; i < usable_.size(); ++i)
+    if (!missing_[i] && !inputs[i].coeffs().allFinite()) return FrameClock::Arrival::rejected;
   for (std::size_t i = 0; i < usable_.size(); ++i)
     if (!missing_[i]) usable_[i] = inputs[i];
   return clock_.push(time, usable_);
@@ -107,6 +118,7 @@ bool Reconstructor::next() noexcept {
     if (clock_.first_of_run() && taken_ > 0) {
       player_.reset();
       causal_heading_.reset();
+      root_.reset(root_.position());
       made_ = taken_;
     }
     take();
