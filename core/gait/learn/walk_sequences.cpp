@@ -76,9 +76,23 @@ Body body_of(const Clip& clip, const WalkOptions& options) {
 
 // A clip seen through the body: its poses, and its steps at the model's rate.
 struct Seen {
+  std::vector<int> matched;
+  double cycle_seconds = 0;
   BodyPoses poses;
   std::vector<Contact> contacts;
 };
+
+// Contacts may come from a file or a program.
+void check_contacts(const Walk& walk) {
+  int before = -1;
+  for (const Contact& contact : walk.contacts) {
+    if (contact.frame <= before || contact.frame >= walk.clip.frames())
+      throw Error(walk.clip.name + ": expected contacts one after the other within the clip's " +
+                  std::to_string(walk.clip.frames()) + " frames; found one at frame " +
+                  std::to_string(contact.frame) + " (counted from 0)");
+    before = contact.frame;
+  }
+}
 
 // The longest run of steps that follow each other without a gap.
 std::vector<Segment> segments_of(const std::vector<Contact>& contacts) {
@@ -158,11 +172,12 @@ WalkSequences walk_sequences(const std::vector<Walk>& walks, const WalkOptions& 
     WalkUse use;
     use.name = walk.clip.name;
     use.style = walk.style;
-    const std::vector<int> matched = match_joints(result.body, walk.clip.skeleton, walk.clip.name);
+    check_contacts(walk);
+    Seen one;
+    one.matched = match_joints(result.body, walk.clip.skeleton, walk.clip.name);
     JointRoles roles = find_roles(walk.clip.skeleton, options.roles);
     const WalkTrack track = follow_walk(walk.clip, roles);
     const double ratio = result.frame_rate / walk.clip.frame_rate;
-    Seen one;
     one.contacts = contacts_at(walk.contacts.empty() ? track.contacts : walk.contacts, ratio);
     use.steps = static_cast<int>(segments_of(one.contacts).size());
     use.seconds = walk.clip.frames() / walk.clip.frame_rate;
@@ -180,8 +195,7 @@ WalkSequences walk_sequences(const std::vector<Walk>& walks, const WalkOptions& 
       result.uses.push_back(use);
       continue;
     }
-    one.poses = body_poses(resampled(walk.clip, result.frame_rate), result.body, matched,
-                           track.cycle_seconds);
+    one.cycle_seconds = track.cycle_seconds;
     use.used = true;
     result.uses.push_back(use);
     seen.push_back(std::move(one));
@@ -194,6 +208,10 @@ WalkSequences walk_sequences(const std::vector<Walk>& walks, const WalkOptions& 
   std::nth_element(cycle_seconds.begin(), cycle_seconds.begin() + cycle_seconds.size() / 2,
                    cycle_seconds.end());
   result.body.heading_window = cycle_seconds[cycle_seconds.size() / 2];
+  // Only now: measured hips are seen through the window that playing will have.
+  for (std::size_t i = 0; i < seen.size(); ++i)
+    seen[i].poses = body_poses(resampled(walks[result.walk_of_sequence[i]].clip, result.frame_rate),
+                               result.body, seen[i].matched, seen[i].cycle_seconds);
   result.body.references = references_of(seen, result.body.skeleton.size());
   result.inputs = streams_of(result.body, result.body.input_joints);
   result.outputs = streams_of(result.body, result.body.output_joints);
