@@ -139,6 +139,18 @@ Alignment soft_alignment(const Row& row, const Eigen::MatrixXd& log_emission,
   return alignment;
 }
 
+// Of x along a path that is given.
+double log_likelihood_of(const Alignment& path, const ObservedSequence& sequence,
+                         const EmissionModel& model) {
+  double sum = 0;
+  for (const Occupancy& at : path.occupancies)
+    sum += model.of_state[at.state].log_likelihoods(sequence.x.col(at.frame))[0];
+  for (std::size_t state = 0; state < model.stay.size(); ++state)
+    sum += path.stays[state] * std::log(model.stay[state]) +
+           path.leaves[state] * std::log1p(-model.stay[state]);
+  return sum;
+}
+
 }  // namespace
 
 StateTable::StateTable(const std::vector<int>& states_per_label) : states(states_per_label) {
@@ -178,7 +190,7 @@ Alignment align(const ObservedSequence& sequence, const StateTable& table,
     alignment.occupancies = equal.occupancies;
     alignment.stays = equal.stays;
     alignment.leaves = equal.leaves;
-    alignment.log_likelihood = 0;
+    alignment.log_likelihood = log_likelihood_of(equal, sequence, emissions);
   }
   return alignment;
 }

@@ -30,7 +30,7 @@ struct Occupancy {
 struct Alignment {
   std::vector<Occupancy> occupancies;  // frame after frame
   std::vector<double> stays, leaves;   // per state: expected numbers of self and onward transitions
-  double log_likelihood = 0;           // of x given the labels (or of the best path)
+  double log_likelihood = 0;           // of x given the labels (or along the one path)
 };
 
 struct EmissionModel {
