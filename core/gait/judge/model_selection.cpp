@@ -2,6 +2,7 @@
 
 #include <algorithm>
 #include <cmath>
+#include <limits>
 #include <memory>
 #include <mutex>
 #include <numeric>
@@ -42,11 +43,14 @@ class Selection {
   Selected run() {
     const int rounds = options_.rounds.value_or(options_.learning.hmm.soft_iterations);
     double regularisation = options_.regularisation.value_or(options_.learning.hmm.regularisation);
-    learnt_ = learn_with(rounds, regularisation);
-    selected_.folds = std::min<int>(options_.folds, static_cast<int>(task_.sequences.size()));
-    if (selected_.folds < 2 || learnt_.observed.sequences.size() < 2) {
+    learnt_ = learn_with(rounds, regularisation, 0, 0.3);
+    selected_.folds =
+        std::min<int>(options_.folds, static_cast<int>(learnt_.observed.sequences.size()));
+    if (selected_.folds < 2) {
       selected_.folds = 0;
-      return finish(regularisation, "default: a single sequence cannot be validated");
+      return finish(regularisation, options_.regularisation
+                                        ? "given"
+                                        : "default: a single sequence cannot be validated");
     }
     if (!options_.regularisation) regularisation = choose_regularisation(rounds);
     if (!options_.rounds) choose_rounds(regularisation);
@@ -55,8 +59,13 @@ class Selection {
   }
 
  private:
-  Learnt learn_with(int rounds, double regularisation) {
+  // Reports its own progress as the part from `begin` to `end` of the whole.
+  Learnt learn_with(int rounds, double regularisation, double begin, double end) {
     LearningOptions learning = options_.learning;
+    if (learning.hmm.progress)
+      learning.hmm.progress = [this, begin, end](double share, const std::string& what) {
+        options_.learning.hmm.progress(begin + share * (end - begin), what);
+      };
     learning.hmm.soft_iterations = rounds;
     learning.hmm.regularisation = regularisation;
     Learnt learnt = learn(task_, learning);
@@ -91,11 +100,6 @@ class Selection {
         all_statistics_[i] += fold_statistics_[fold][i];
   }
 
-  const Sequence& sequence_named(const std::string& name) const {
-    return *std::find_if(task_.sequences.begin(), task_.sequences.end(),
-                         [&](const Sequence& s) { return s.name == name; });
-  }
-
   // Plays one fold's sequences by a model that has not seen them.
   Held play_held_out(const Learnt& learnt, int fold, double regularisation,
                      const PlayDefaults& play) const {
@@ -109,7 +113,7 @@ class Selection {
                regularisation);
     const auto tables = make_state_tables(*model);
     for (const int index : folds_[fold]) {
-      const Sequence& sequence = sequence_named(learnt.observed.sequences[index].name);
+      const Sequence& sequence = task_.sequences[learnt.observed.sequences[index].source];
       PlayedSequence played = play_sequence(model, {}, sequence, tables);
       double error = 0, right = 0;
       for (int frame = played.begin; frame < played.end; ++frame) {
@@ -134,6 +138,7 @@ class Selection {
     std::mutex adding;
     in_parallel(
         static_cast<int>(choices.size()) * folds, options_.learning.hmm.threads, [&](int job) {
+          if (options_.learning.hmm.cancel.stop_requested()) throw Error("cancelled");
           const std::size_t choice = job / folds;
           const Held held = play(choices[choice], job % folds);
           const std::scoped_lock lock(adding);
@@ -143,8 +148,10 @@ class Selection {
     for (auto& of_choice : errors) {
       // Sorted, so that the order in which folds ended does not change the sum.
       std::sort(of_choice.begin(), of_choice.end());
-      means.push_back(std::accumulate(of_choice.begin(), of_choice.end(), 0.0) /
-                      std::max(1, static_cast<int>(of_choice.size())));
+      // None held out could be played: nothing speaks for this choice.
+      means.push_back(of_choice.empty() ? std::numeric_limits<double>::infinity()
+                                        : std::accumulate(of_choice.begin(), of_choice.end(), 0.0) /
+                                              static_cast<double>(of_choice.size()));
     }
     return means;
   }
@@ -158,15 +165,20 @@ class Selection {
     for (std::size_t i = 0; i < errors.size(); ++i)
       selected_.trials.push_back({options_.regularisations[i], rounds, errors[i]});
     const auto best = std::min_element(errors.begin(), errors.end()) - errors.begin();
-    return options_.regularisations[best];
+    // Where labels occur in one sequence only nothing can be held out.
+    return std::isfinite(errors[best]) ? options_.regularisations[best]
+                                       : options_.learning.hmm.regularisation;
   }
 
   void choose_rounds(double regularisation) {
     report(0.6, "cross-validating the rounds of Baum-Welch");
     double best = -1;
+    std::size_t candidate_number = 0;
     Learnt best_learnt;
     for (const int rounds : options_.round_choices) {
-      Learnt candidate = learn_with(rounds, regularisation);
+      const double tried = static_cast<double>(candidate_number++) /
+                           static_cast<double>(options_.round_choices.size());
+      Learnt candidate = learn_with(rounds, regularisation, 0.6 + 0.3 * tried, 0.6 + 0.3 * tried);
       gather_folds(candidate);
       const double error =
           errors_of(std::vector<double>{regularisation}, [&](double kappa, int fold) {
@@ -189,7 +201,8 @@ class Selection {
       tempered.temper = temper;
       return play_held_out(learnt_, fold, regularisation, tempered);
     });
-    play.temper = options_.tempers[std::min_element(errors.begin(), errors.end()) - errors.begin()];
+    const auto best = std::min_element(errors.begin(), errors.end()) - errors.begin();
+    if (std::isfinite(errors[best])) play.temper = options_.tempers[best];
 
     // With a temper of one the logarithm of a posterior is the score but for a constant.
     PlayDefaults untempered = play;

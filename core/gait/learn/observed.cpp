@@ -115,7 +115,9 @@ ObservationSet observe(const std::vector<Sequence>& sequences, const std::vector
 
   const int history = lags.empty() ? 0 : lags.back();
   std::vector<Sequence> raw;
-  for (const Sequence& sequence : sequences) {
+  std::vector<int> sources;
+  for (std::size_t i = 0; i < sequences.size(); ++i) {
+    const Sequence& sequence = sequences[i];
     const int frames = static_cast<int>(sequence.inputs.cols());
     Sequence observed{
         sequence.name, {}, {}, cut(sequence.segments, history, frames - 1), sequence.style};
@@ -123,12 +125,14 @@ ObservationSet observe(const std::vector<Sequence>& sequences, const std::vector
     observed.inputs = raw_inputs(sequence, set.input);
     observed.outputs = raw_outputs(sequence, set.output);
     raw.push_back(std::move(observed));
+    sources.push_back(static_cast<int>(i));
   }
   if (raw.empty()) throw Error("expected sequences longer than their history; none is left");
   set.input_scaling = scaling_of(raw, true);
   set.output_scaling = scaling_of(raw, false);
-  for (const Sequence& sequence : raw) {
-    ObservedSequence observed{sequence.name, {}, {}, sequence.segments, sequence.style};
+  for (std::size_t i = 0; i < raw.size(); ++i) {
+    const Sequence& sequence = raw[i];
+    ObservedSequence observed{sequence.name, {}, {}, sequence.segments, sequence.style, sources[i]};
     const auto scaled = [](const Eigen::MatrixXd& values, const Scaling& scaling) {
       return Eigen::MatrixXd(((values.colwise() - scaling.mean).array().colwise() *
                               scaling.deviation.cwiseInverse().array())

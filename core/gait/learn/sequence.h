@@ -26,6 +26,7 @@ struct ObservedSequence {
   Eigen::MatrixXd x, y;           // observation by frames
   std::vector<Segment> segments;  // frames of x and y
   int style = -1;
+  int source = -1;  // index of the sequence it was observed from
 };
 
 }  // namespace gait
