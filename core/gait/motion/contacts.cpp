@@ -135,8 +135,8 @@ WalkTrack follow_walk(const Clip& clip, const JointRoles& roles) {
   }
   const double root_speed = last > first ? path * clip.frame_rate / (last - first) : 0;
   const double feet_speed = stance_speed(walk, track, clip.frame_rate);
-  track.treadmill = feet_speed > 0.2 && root_speed < 0.3 * feet_speed;
-  track.speed = track.treadmill ? feet_speed : std::max(0.0, root_speed);
+  track.treadmill = feet_speed > 0.2 && std::abs(root_speed) < 0.3 * feet_speed;
+  track.speed = track.treadmill ? feet_speed : std::abs(root_speed);
   return track;
 }
 

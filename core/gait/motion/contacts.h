@@ -17,7 +17,7 @@ struct WalkTrack {
   std::vector<double> heading;  // radians, unwrapped
   std::vector<Contact> contacts;
   double cycle_seconds = 1.1;  // median time from contact to the same foot's next contact
-  double speed = 0;            // m/s along the ground
+  double speed = 0;            // m/s along the ground, also backwards
   bool treadmill = false;      // the root stays where it is while the feet travel
   double leg_length = 0;       // thigh + shank, metres
 };
