@@ -3,6 +3,7 @@
 #include <algorithm>
 #include <chrono>
 #include <cmath>
+#include <numbers>
 
 #include "gait/error.h"
 #include "gait/motion/rotation.h"
@@ -91,7 +92,10 @@ ReconstructedClip reconstruct_clip(std::shared_ptr<const Model> model, const Bod
     const Eigen::Vector3d hips =
         between ? Eigen::Vector3d((1 - share) * made.hips[at] + share * made.hips[next])
                 : made.hips[at];
-    place_body(result.clip, frame, roles, pose, made.headings[at], hips);
+    const double turn = std::remainder(made.headings[next] - made.headings[at],
+                                       2 * std::numbers::pi);  // the shorter way round
+    const double heading = made.headings[at] + (between ? share * turn : 0.0);
+    place_body(result.clip, frame, roles, pose, heading, hips);
     result.decisions.push_back(made.decisions[at]);
     for (std::size_t style = 0; style < made.styles[at].size(); ++style)
       result.style_posteriors(static_cast<Eigen::Index>(style), frame) = made.styles[at][style];
