@@ -14,6 +14,7 @@ namespace gait {
 namespace {
 
 using testing::estimates_of;
+using testing::expect_right_and_left_in_turn;
 using testing::KnownWalk;
 using testing::play;
 using testing::rms_error;
@@ -21,27 +22,11 @@ using testing::Sight;
 using testing::StageEvent;
 using testing::StageRecord;
 using testing::steepest_step;
+using testing::true_contacts;
 
 std::vector<StageEvent> operator+(std::vector<StageEvent> a, const std::vector<StageEvent>& b) {
   a.insert(a.end(), b.begin(), b.end());
   return a;
-}
-
-// The contacts a walk really makes between two times.
-std::vector<StageRecord::Contact> true_contacts(const KnownWalk& walk, double begin, double end) {
-  std::vector<StageRecord::Contact> contacts;
-  const double dt = 1e-4;
-  for (double time = begin; time < end; time += dt) {
-    const double before = std::floor(2 * walk.cycles(time)),
-                 after = std::floor(2 * walk.cycles(time + dt));
-    if (after > before) contacts.push_back({time, static_cast<int>(after) % 2});
-  }
-  return contacts;
-}
-
-void expect_right_and_left_in_turn(const StageRecord& record) {
-  for (std::size_t i = 1; i < record.contacts.size(); ++i)
-    EXPECT_NE(record.contacts[i].step, record.contacts[i - 1].step) << record.contacts[i].time;
 }
 
 TEST(PhaseClock, two_cycles_after_it_began_it_is_where_the_walk_is) {
@@ -104,31 +89,6 @@ TEST(PhaseClock, each_foot_touches_once_a_cycle_whatever_the_estimates_do) {
   }
 }
 
-TEST(PhaseClock, contacts_are_heard_at_the_sample_where_the_ramp_crosses) {
-  PhaseClock clock;
-  clock.set_cadence(2.21);
-  std::vector<float> block(4800);
-  float before = 0;
-  int contacts = 0;
-  for (int i = 0; i < 50; ++i) {
-    clock.process(block, 48000);
-    std::size_t next = 0;
-    for (std::size_t sample = 0; sample < block.size(); ++sample) {
-      const int step = block[sample] < before ? 0 : block[sample] >= 0.5f && before < 0.5f ? 1 : -1;
-      if (step >= 0) {
-        ASSERT_LT(next, clock.crossings().size());
-        EXPECT_EQ(clock.crossings()[next].step, step);
-        // Float shows the ramp with 24 bits only: a sample to either side.
-        EXPECT_NEAR(clock.crossings()[next].sample, static_cast<double>(sample), 1);
-        ++next, ++contacts;
-      }
-      before = block[sample];
-    }
-    EXPECT_EQ(next, clock.crossings().size());
-  }
-  EXPECT_EQ(contacts, 11);
-}
-
 TEST(PhaseClock, stands_still_when_the_walker_does_and_goes_on_when_he_does) {
   const double frequency = 0.9;
   const KnownWalk walk({{0, frequency}, {5.3, 0}, {9, frequency}});
@@ -152,17 +112,6 @@ TEST(PhaseClock, stands_still_when_the_walker_does_and_goes_on_when_he_does) {
   EXPECT_LE(rms_error(record, walk, 9 + 2 / frequency, 16), 0.02);
   expect_right_and_left_in_turn(record);
   EXPECT_GE(steepest_step(record, 1, 16), 0) << "it ran backwards";
-}
-
-TEST(PhaseClock, who_waits_for_a_walker_begins_with_his_first_contact) {
-  PhaseClock clock;
-  std::vector<StageEvent> events = {{0, [](PhaseClock& c) { c.set_walking(false); }},
-                                    {3, [](PhaseClock& c) { c.set_walking(true); }},
-                                    {3, [](PhaseClock& c) { c.observe_contact(1); }}};
-  const StageRecord record = play(clock, events, 3.2);
-  ASSERT_EQ(record.contacts.size(), 1u);
-  EXPECT_EQ(record.contacts[0].step, 1);
-  EXPECT_NEAR(record.contacts[0].time, 3, 0.002);
 }
 
 TEST(PhaseClock, says_that_cadence_is_zero_while_standing) {
@@ -221,60 +170,6 @@ TEST(PhaseClock, one_wild_estimate_does_not_throw_it) {
   PhaseClock clock;
   const StageRecord record = play(clock, events, 8);
   EXPECT_LE(rms_error(record, walk, 6, 6.5), 0.02);
-}
-
-// Foot switches: contacts of both feet, `jitter` seconds off at most.
-std::vector<StageEvent> switches(const KnownWalk& walk, double begin, double end, double jitter) {
-  std::mt19937 random(4);
-  std::uniform_real_distribution<double> off(-jitter, jitter);
-  std::vector<StageEvent> events;
-  for (const auto& contact : true_contacts(walk, begin, end))
-    events.push_back({contact.time + off(random),
-                      [step = contact.step](PhaseClock& c) { c.observe_contact(step); }});
-  return events;
-}
-
-TEST(PhaseClock, runs_on_foot_switches_alone) {
-  for (const double frequency : {0.4, 0.6, 0.9, 1.3}) {
-    const KnownWalk walk({{0, frequency}, {8, 1.2 * frequency}});
-    PhaseClock clock;
-    const StageRecord record = play(clock, switches(walk, 0, 16, 0.01), 16);
-    EXPECT_LE(rms_error(record, walk, 3 / frequency, 8), 0.03) << frequency;
-    EXPECT_LE(rms_error(record, walk, 8 + 2 / frequency, 16), 0.03) << frequency;
-  }
-}
-
-TEST(PhaseClock, a_switch_that_bounces_is_one_contact) {
-  const KnownWalk walk({{0, 0.9}});
-  auto events = switches(walk, 0, 10, 0);
-  for (const auto& contact : true_contacts(walk, 0, 10))
-    for (const double bounce : {0.004, 0.011, 0.03})
-      events.push_back({contact.time + bounce,
-                        [step = contact.step](PhaseClock& c) { c.observe_contact(step); }});
-  PhaseClock clock;
-  const StageRecord record = play(clock, events, 10);
-  EXPECT_LE(rms_error(record, walk, 3, 10), 0.03);
-}
-
-TEST(PhaseClock, takes_its_tempo_from_taps) {
-  for (const double cadence : {0.8, 1.5, 2.4, 4.0}) {
-    PhaseClock clock;
-    std::vector<StageEvent> taps;
-    for (int i = 0; i < 8; ++i) taps.push_back({1 + i / cadence, [](PhaseClock& c) { c.tap(); }});
-    const double end = 1 + 8 / cadence + 2;
-    const StageRecord record = play(clock, taps, end);
-    EXPECT_NEAR(clock.cadence(), cadence, 0.03 * cadence);
-    // After the last tap, it beats where the next ones would have been.
-    int beats = 0;
-    for (const auto& contact : record.contacts) {
-      if (contact.time < 1 + 7.5 / cadence) continue;
-      const double in_beats = (contact.time - 1) * cadence;
-      EXPECT_NEAR(in_beats, std::round(in_beats), 0.1) << cadence << " at " << contact.time;
-      ++beats;
-    }
-    EXPECT_GE(beats, static_cast<int>(2 * cadence) - 1);
-    expect_right_and_left_in_turn(record);
-  }
 }
 
 TEST(PhaseClock, pull_sets_how_fast_it_follows) {

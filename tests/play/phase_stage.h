@@ -2,6 +2,8 @@
 // on stage: blocks of 64 samples at 48 kHz.
 #pragma once
 
+#include <gtest/gtest.h>
+
 #include <algorithm>
 #include <cmath>
 #include <functional>
@@ -130,6 +132,24 @@ inline double steepest_step(const StageRecord& record, double begin, double end)
     least = std::min(least, step);
   }
   return least < 0 ? least : largest / (sum / static_cast<double>(last - first - 1));
+}
+
+// The contacts a walk really makes between two times.
+inline std::vector<StageRecord::Contact> true_contacts(const KnownWalk& walk, double begin,
+                                                       double end) {
+  std::vector<StageRecord::Contact> contacts;
+  const double dt = 1e-4;
+  for (double time = begin; time < end; time += dt) {
+    const double before = std::floor(2 * walk.cycles(time)),
+                 after = std::floor(2 * walk.cycles(time + dt));
+    if (after > before) contacts.push_back({time, static_cast<int>(after) % 2});
+  }
+  return contacts;
+}
+
+inline void expect_right_and_left_in_turn(const StageRecord& record) {
+  for (std::size_t i = 1; i < record.contacts.size(); ++i)
+    EXPECT_NE(record.contacts[i].step, record.contacts[i - 1].step) << record.contacts[i].time;
 }
 
 }  // namespace gait::testing
