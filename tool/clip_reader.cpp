@@ -18,14 +18,21 @@ std::string unit_fault(const std::string& unit) {
   }
 }
 
+}  // namespace
+
 void print_warnings(const std::string& command, const std::vector<std::string>& warnings) {
   for (const std::string& warning : warnings)
     std::fprintf(stderr, "gait %s: warning: %s\n", command.c_str(), warning.c_str());
 }
 
-}  // namespace
+BodyFrameOverride said_of_frame(const ClipReading& reading) {
+  BodyFrameOverride said;
+  if (!reading.unit.empty()) said.metres_per_unit = metres_per_unit_named(reading.unit);
+  if (!reading.up.empty()) said.up_axis = reading.up[0];
+  return said;
+}
 
-void add_clip_reading(CLI::App& command, ClipReading& reading) {
+void add_unit_and_up(CLI::App& command, ClipReading& reading) {
   command
       .add_option("--unit", reading.unit,
                   "Unit of the files: m, cm, mm, in, ft or metres per unit (guessed from the legs)")
@@ -34,6 +41,10 @@ void add_clip_reading(CLI::App& command, ClipReading& reading) {
   command.add_option("--up", reading.up, "Axis that points up: x, y or z (guessed from the body)")
       ->transform(CLI::IsMember({"x", "y", "z"}, CLI::ignore_case))
       ->type_name("AXIS");
+}
+
+void add_clip_reading(CLI::App& command, ClipReading& reading) {
+  add_unit_and_up(command, reading);
   command
       .add_option("--roles", reading.roles,
                   "File with lines `joint = role` for names that are not understood")
@@ -42,9 +53,6 @@ void add_clip_reading(CLI::App& command, ClipReading& reading) {
 
 ReadClip read_clip(const std::filesystem::path& path, const ClipReading& reading,
                    const std::string& command) {
-  BodyFrameOverride said;
-  if (!reading.unit.empty()) said.metres_per_unit = metres_per_unit_named(reading.unit);
-  if (!reading.up.empty()) said.up_axis = reading.up[0];
   const RoleTable table = reading.roles.empty() ? RoleTable{} : read_role_table(reading.roles);
 
   ReadClip read;
@@ -52,7 +60,7 @@ ReadClip read_clip(const std::filesystem::path& path, const ClipReading& reading
   print_warnings(command, read.file.warnings);
   const Clip in_file = clip_from_bvh(read.file);
   read.roles = find_roles(in_file.skeleton, table);
-  read.frame = guess_body_frame(in_file, read.roles, said);
+  read.frame = guess_body_frame(in_file, read.roles, said_of_frame(reading));
   print_warnings(command, read.frame.warnings);
   read.clip = in_metres_y_up(in_file, read.frame);
   return read;

@@ -5,6 +5,7 @@
 #include <CLI/CLI.hpp>
 #include <filesystem>
 #include <string>
+#include <vector>
 
 #include "gait/motion/body_frame.h"
 #include "gait/motion/bvh.h"
@@ -22,6 +23,13 @@ struct ClipReading {
 
 // Adds --unit, --up and --roles, checked while the command line is read.
 void add_clip_reading(CLI::App& command, ClipReading& reading);
+// --unit and --up alone, for what finds roles without names.
+void add_unit_and_up(CLI::App& command, ClipReading& reading);
+
+BodyFrameOverride said_of_frame(const ClipReading& reading);
+
+// To stderr, as `gait COMMAND: warning: ...`.
+void print_warnings(const std::string& command, const std::vector<std::string>& warnings);
 
 struct ReadClip {
   BvhFile file;  // as it is written

@@ -37,6 +37,7 @@ constexpr double kHeightOverLeg = 2.04;
 
 struct Measured {
   Eigen::Vector3d feet_to_head = Eigen::Vector3d::Zero();  // mean over frames, file's unit
+  double feet_to_head_length = 0;                          // mean of the lengths
   double leg = 0;                                          // mean thigh + shank, file's unit
 };
 
@@ -55,12 +56,15 @@ Measured measure(const Clip& clip, const JointRoles& roles) {
   for (int frame = 0; frame < clip.frames(); ++frame) {
     const Eigen::Vector3d* at =
         world.positions.data() + static_cast<std::size_t>(frame) * clip.skeleton.joints.size();
-    sum.feet_to_head += at[top] - (at[roles.left.foot] + at[roles.right.foot]) / 2;
+    const Eigen::Vector3d body = at[top] - (at[roles.left.foot] + at[roles.right.foot]) / 2;
+    sum.feet_to_head += body;
+    sum.feet_to_head_length += body.norm();
     for (const Leg& leg : {roles.left, roles.right})
       sum.leg +=
           ((at[leg.thigh] - at[leg.shank]).norm() + (at[leg.shank] - at[leg.foot]).norm()) / 2;
   }
   sum.feet_to_head /= clip.frames();
+  sum.feet_to_head_length /= clip.frames();
   sum.leg /= clip.frames();
   return sum;
 }
@@ -80,7 +84,16 @@ std::string number_text(double value) {
   return {digits.data(), end.ptr};
 }
 
+// Below this, what frames say of up cancels out.
+constexpr double kLeastAgreement = 0.5;
+
 void guess_up(const Clip& clip, const Eigen::Vector3d& feet_to_head, BodyFrame& frame) {
+  if (feet_to_head.norm() > 0 && frame.up_agreement < kLeastAgreement) {
+    frame.warnings.push_back(clip.name +
+                             ": which way is up is doubtful, as the body turns over and over; "
+                             "taking Y (say --up x, y or z)");
+    return;
+  }
   if (feet_to_head.norm() == 0) {
     frame.warnings.push_back(clip.name +
                              ": cannot tell which way is up, as no head and feet are known; taking "
@@ -168,6 +181,8 @@ BodyFrame guess_body_frame(const Clip& clip, const JointRoles& roles,
                            const BodyFrameOverride& said) {
   BodyFrame frame;
   const Measured measured = measure(clip, roles);
+  if (measured.feet_to_head_length > 0)
+    frame.up_agreement = measured.feet_to_head.norm() / measured.feet_to_head_length;
   if (said.up_axis) {
     const char axis = *said.up_axis;
     if (axis < 'x' || axis > 'z')

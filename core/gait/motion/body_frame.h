@@ -15,6 +15,9 @@ namespace gait {
 struct BodyFrame {
   double metres_per_unit = 1;
   Eigen::Quaterniond to_y_up = Eigen::Quaterniond::Identity();  // turns file axes into ours
+  // How well frames agree on the direction from feet to head: length of the mean over mean of the
+  // lengths, 1 when all say the same, 0 when nothing is known.
+  double up_agreement = 0;
   std::vector<std::string> warnings;  // when in doubt; each names the flag that settles it
 };
 
@@ -31,6 +34,7 @@ double metres_per_unit_named(std::string_view unit);
 // Guesses both: up is the axis from feet to head over all frames; the unit follows from the leg's
 // length (thigh + shank by forward kinematics) being near a person's, 0.62 to 1.1 m. Warns where
 // the body leans by more than 30 degrees, no unit fits, or the joints to tell by are not known.
+// Where frames agree by less than half (tumbling, noise), up is Y, with a warning.
 BodyFrame guess_body_frame(const Clip& clip, const JointRoles& roles,
                            const BodyFrameOverride& said = {});
 

@@ -1,0 +1,81 @@
+// gait reconstruct: a clip's output joints from its input joints alone.
+#include <cstdio>
+#include <memory>
+#include <optional>
+#include <string>
+
+#include "clip_reader.h"
+#include "commands.h"
+#include "decision_table.h"
+#include "gait/corpus/demo_model.h"
+#include "gait/judge/reconstructed_file.h"
+#include "output_file.h"
+#include "play_options.h"
+
+namespace gait::tool {
+
+namespace {
+
+struct ReconstructOptions {
+  std::string model, clip, output, table;
+  std::string root = "feet";
+  PlayerSettings settings;
+  ClipReading reading;
+};
+
+void reconstruct(const ReconstructOptions& options) {
+  OutputFile output(options.output);
+  std::optional<OutputFile> table;
+  if (!options.table.empty()) table.emplace(options.table);
+
+  const auto model = std::make_shared<const Model>(model_named(options.model));
+  const BvhFile file = read_bvh(options.clip);
+  print_warnings("reconstruct", file.warnings);
+  const ReconstructedFile result =
+      reconstruct_file(model, file, said_of_frame(options.reading), options.settings,
+                       options.root == "feet" ? RootFrom::feet : RootFrom::file);
+  print_warnings("reconstruct", result.warnings);
+  write_bvh(result.file, output.part());
+  if (table) write_decisions(result.walk, *model, table->part());
+  output.keep();
+  if (table) table->keep();
+}
+
+}  // namespace
+
+Command reconstruct_command(CLI::App& program) {
+  const auto options = std::make_shared<ReconstructOptions>();
+  CLI::App* app = program.add_subcommand(
+      "reconstruct", "Find the joints a model synthesises from those it is given");
+  app->add_option("MODEL", options->model, "Model file, or gait-demo: the one that is built in")
+      ->required()
+      ->default_str("")
+      ->type_name("");
+  app->add_option("CLIP", options->clip, "BVH file")->required()->default_str("")->type_name("");
+  app->add_option("-o,--output", options->output,
+                  "BVH file to write: same skeleton, rate and frames, input joints untouched")
+      ->required()
+      ->type_name("BVH");
+  app->add_option("--root", options->root,
+                  "Where the hips go: feet (as the found feet carry them, from the origin ahead) "
+                  "or keep (place and heading of the clip)")
+      ->check(CLI::IsMember({"feet", "keep"}))
+      ->type_name("feet|keep");
+  app->add_option("--csv", options->table,
+                  "Table to write, a row per frame: time, step, state, log-likelihood, phase, "
+                  "cadence, style posteriors")
+      ->type_name("FILE");
+  add_play_options(*app, options->settings);
+  add_unit_and_up(*app, options->reading);
+  app->footer(
+      "Only the model's input joints are looked at. Delays that --lag or --future ask for are "
+      "taken\n"
+      "out again: frame t of what is written belongs to frame t of the clip.\n\n"
+      "Examples:\n"
+      "  gait reconstruct walks.gait upper.bvh -o whole.bvh\n"
+      "  gait reconstruct gait-demo walk.bvh -o found.bvh --csv found.csv --root keep\n"
+      "  gait reconstruct walks.gait walk.bvh -o caricature.bvh --strength 1.5");
+  return {app, [options] { reconstruct(*options); }};
+}
+
+}  // namespace gait::tool
