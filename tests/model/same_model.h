@@ -45,6 +45,9 @@ inline void expect_same(const Stream& a, const Stream& b) {
 inline void expect_same(const Joint& a, const Joint& b);
 inline void expect_same(const State& a, const State& b);
 inline void expect_same(const Label& a, const Label& b);
+inline void expect_same(const Variation& a, const Variation& b);
+inline void expect_same(const StyleCycles& a, const StyleCycles& b);
+inline void expect_same(const SpeedSpace& a, const SpeedSpace& b);
 
 template <typename Value>
 void expect_same(const std::vector<Value>& a, const std::vector<Value>& b) {
@@ -127,9 +130,62 @@ inline void expect_same(const Scaling& a, const Scaling& b) {
   expect_same(deviation, b.deviation);
 }
 
+inline void expect_same(const CycleSpace& a, const CycleSpace& b) {
+  const auto& [frames, joints, mean, components, variances] = a;
+  expect_same(frames, b.frames);
+  expect_same(joints, b.joints);
+  expect_same(mean, b.mean);
+  expect_same(components, b.components);
+  expect_same(variances, b.variances);
+}
+
+inline void expect_same(const Variation& a, const Variation& b) {
+  const auto& [mean, deviation, largest_change, lowest, highest] = a;
+  expect_same(mean, b.mean);
+  expect_same(deviation, b.deviation);
+  expect_same(largest_change, b.largest_change);
+  expect_same(lowest, b.lowest);
+  expect_same(highest, b.highest);
+}
+
+inline void expect_same(const StyleCycles& a, const StyleCycles& b) {
+  const auto& [cycles, scores, duration] = a;
+  expect_same(cycles, b.cycles);
+  expect_same(scores, b.scores);
+  expect_same(duration, b.duration);
+}
+
+inline void expect_same(const StyleSpace& a, const StyleSpace& b) {
+  const auto& [space, cycles_per_style, styles] = a;
+  expect_same(space, b.space);
+  expect_same(cycles_per_style, b.cycles_per_style);
+  expect_same(styles, b.styles);
+}
+
+inline void expect_same(const SpeedSpace& a, const SpeedSpace& b) {
+  const auto& [subject, leg_length, space, cycles, intercept, slope, standing, slowest, fastest,
+               frequency_scale, frequency_power, shared] = a;
+  expect_same(subject, b.subject);
+  expect_same(leg_length, b.leg_length);
+  expect_same(space, b.space);
+  expect_same(cycles, b.cycles);
+  expect_same(intercept, b.intercept);
+  expect_same(slope, b.slope);
+  expect_same(standing, b.standing);
+  expect_same(slowest, b.slowest);
+  expect_same(fastest, b.fastest);
+  expect_same(frequency_scale, b.frequency_scale);
+  expect_same(frequency_power, b.frequency_power);
+  const auto& [shared_intercept, shared_slope, shared_standing] = shared;
+  expect_same(shared_intercept, b.shared.intercept);
+  expect_same(shared_slope, b.shared.slope);
+  expect_same(shared_standing, b.shared.standing);
+}
+
 inline void expect_same(const Model& a, const Model& b) {
   const auto& [name, frame_rate, inputs, outputs, input, output, input_scaling, output_scaling,
-               output_mean, labels, styles, body, play, training] = a;
+               output_mean, labels, styles, body, style_space, speed_spaces, shared_speed_space,
+               play, training] = a;
   expect_same(name, b.name);
   expect_same(frame_rate, b.frame_rate);
   expect_same(inputs, b.inputs);
@@ -148,6 +204,11 @@ inline void expect_same(const Model& a, const Model& b) {
   expect_same(styles, b.styles);
   ASSERT_EQ(body.has_value(), b.body.has_value());
   if (body) expect_same(*body, *b.body);
+  ASSERT_EQ(style_space.has_value(), b.style_space.has_value());
+  if (style_space) expect_same(*style_space, *b.style_space);
+  expect_same(speed_spaces, b.speed_spaces);
+  ASSERT_EQ(shared_speed_space.has_value(), b.shared_speed_space.has_value());
+  if (shared_speed_space) expect_same(*shared_speed_space, *b.shared_speed_space);
   expect_same(play, b.play);
   expect_same(training, b.training);
 }

@@ -32,7 +32,7 @@ struct Variation {
 
 // One style in a cycle space (T10 §6).
 struct StyleCycles {
-  int cycles = 0;                 // that it was learnt from
+  int cycles = 0;                 // that it was learnt from; 0: none was straight, it cannot walk
   std::vector<Variation> scores;  // per kept component
   Variation duration;             // seconds
 };
@@ -42,6 +42,11 @@ struct StyleSpace {
   CycleSpace space;
   int cycles_per_style = 0;         // that the components were fitted to; all were projected
   std::vector<StyleCycles> styles;  // in the model's order of styles
+};
+
+// Lines of a subject's scores over speed, in a space that subjects share.
+struct SharedLines {
+  Eigen::VectorXd intercept, slope, standing;  // as in SpeedSpace; empty: no shared space
 };
 
 // One subject's walks over speed (G04 §4), in a space of its own.
@@ -56,6 +61,7 @@ struct SpeedSpace {
   double slowest = 0, fastest = 0;   // captured V
   // Cycles per second at V: scale * V^power (G04 eq. 6).
   double frequency_scale = 0, frequency_power = 0;
+  SharedLines shared;  // in the model's shared_speed_space
 };
 
 }  // namespace gait

@@ -12,6 +12,7 @@
 #include <string>
 #include <vector>
 
+#include "gait/model/cycle_space.h"
 #include "gait/motion/joint_roles.h"
 #include "gait/motion/observation.h"
 #include "gait/motion/skeleton.h"
@@ -99,6 +100,11 @@ struct Model {
   std::vector<Label> labels;
   std::vector<std::string> styles;
   std::optional<Body> body;
+  // Spaces of cycles, only with a body: all styles in one (T10), each subject over speed (G04), and
+  // all subjects in one, so that one can be moved towards another.
+  std::optional<StyleSpace> style_space;
+  std::vector<SpeedSpace> speed_spaces;
+  std::optional<CycleSpace> shared_speed_space;
   PlayDefaults play;
   Training training;
 

@@ -2,6 +2,7 @@
 #include <fstream>
 
 #include "gait/error.h"
+#include "gait/model/cycle_space_fields.h"
 #include "gait/model/model_field.h"
 #include "gait/model/model_file.h"
 #include "gait/model/model_words.h"
@@ -167,6 +168,11 @@ Model model_of(const ModelField& document) {
   for (const ModelField& item : document["labels"].items())
     model.labels.push_back(label(item, !model.styles.empty()));
   if (const auto field = document.find("body")) model.body = body(*field);
+  if (const auto field = document.find("style_space")) model.style_space = style_space(*field);
+  if (const auto field = document.find("speed_spaces"))
+    for (const ModelField& item : field->items()) model.speed_spaces.push_back(speed_space(item));
+  if (const auto field = document.find("shared_speed_space"))
+    model.shared_speed_space = cycle_space(*field);
   model.play = play(document["play"]);
   model.training = training(document["training"]);
   return model;

@@ -3,6 +3,8 @@
 #include <nlohmann/json.hpp>
 
 #include "gait/error.h"
+#include "gait/model/array_node.h"
+#include "gait/model/cycle_space_fields.h"
 #include "gait/model/model_field.h"
 #include "gait/model/model_file.h"
 #include "gait/model/model_words.h"
@@ -20,36 +22,8 @@ std::string word_of(const Words& words, Kind kind) {
   throw Error("expected a known kind");  // check_model has seen to it
 }
 
-Json array_node(std::vector<Eigen::Index> shape, std::vector<std::uint8_t> bytes) {
-  return {{"shape", std::move(shape)}, {"data", Json::binary(std::move(bytes), cbor_float64_tag)}};
-}
-
-Json node(const Eigen::VectorXd& vector) {
-  std::vector<std::uint8_t> bytes(static_cast<std::size_t>(vector.size()) * sizeof(double));
-  copy_values({vector.data(), static_cast<std::size_t>(vector.size())}, bytes.data());
-  return array_node({vector.size()}, std::move(bytes));
-}
-
-Json node(const Eigen::MatrixXd& matrix) {
-  std::vector<std::uint8_t> bytes(static_cast<std::size_t>(matrix.size()) * sizeof(double));
-  copy_values({matrix.data(), static_cast<std::size_t>(matrix.size())}, bytes.data());
-  return array_node({matrix.rows(), matrix.cols()}, std::move(bytes));
-}
-
-Json symmetric_node(const Eigen::MatrixXd& matrix) {
-  const Eigen::Index size = matrix.rows();
-  std::vector<std::uint8_t> bytes(static_cast<std::size_t>(size * (size + 1) / 2) * sizeof(double));
-  std::uint8_t* at = bytes.data();
-  for (Eigen::Index column = 0; column < size; ++column) {
-    const auto rows = static_cast<std::size_t>(size - column);
-    copy_values({&matrix(column, column), rows}, at);
-    at += rows * sizeof(double);
-  }
-  return array_node({size, size}, std::move(bytes));
-}
-
 Json node(const Scaling& scaling) {
-  return {{"mean", node(scaling.mean)}, {"deviation", node(scaling.deviation)}};
+  return {{"mean", array_node(scaling.mean)}, {"deviation", array_node(scaling.deviation)}};
 }
 
 Json node(const std::vector<Stream>& streams) {
@@ -69,14 +43,14 @@ Json node(const InputLayout& layout, double frame_rate) {
 }
 
 Json node(const State& state, bool styles) {
-  Json node_of_state = {{"mean", node(state.mean)},
-                        {"covariance", symmetric_node(state.covariance)},
+  Json node_of_state = {{"mean", array_node(state.mean)},
+                        {"covariance", symmetric_array_node(state.covariance)},
                         {"stay", state.stay},
                         {"duration", state.duration},
                         {"weight", state.weight}};
   if (styles) {
-    node_of_state["style_means"] = node(state.style_means);
-    node_of_state["style_covariance"] = symmetric_node(state.style_covariance);
+    node_of_state["style_means"] = array_node(state.style_means);
+    node_of_state["style_covariance"] = symmetric_array_node(state.style_covariance);
   }
   return node_of_state;
 }
@@ -152,12 +126,17 @@ Json node(const Model& model) {
       {"output", {{"values", model.output.values}, {"modelled", model.output.modelled}}},
       {"input_scaling", node(model.input_scaling)},
       {"output_scaling", node(model.output_scaling)},
-      {"output_mean", node(model.output_mean)},
+      {"output_mean", array_node(model.output_mean)},
       {"styles", model.styles},
       {"labels", std::move(labels)},
       {"play", node(model.play)},
       {"training", node(model.training)}};
   if (model.body) document["body"] = node(*model.body);
+  if (model.style_space) document["style_space"] = field_of(*model.style_space);
+  for (const SpeedSpace& space : model.speed_spaces)
+    document["speed_spaces"].push_back(field_of(space));
+  if (model.shared_speed_space)
+    document["shared_speed_space"] = field_of(*model.shared_speed_space);
   return document;
 }
 
