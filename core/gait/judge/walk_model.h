@@ -5,6 +5,7 @@
 #include <string>
 
 #include "gait/judge/model_selection.h"
+#include "gait/learn/principal_components.h"
 #include "gait/learn/walk_sequences.h"
 
 namespace gait {
@@ -23,5 +24,16 @@ LearningTask walking_task(const WalkSequences& walks);
 // Learns the model with its body. Throws Error as select_model does.
 Selected select_walk_model(const WalkSequences& walks, const SelectionOptions& options,
                            const ModelOrigin& origin = {});
+
+// How finely the walkers' cycles are kept (T10: 40 frames, 90 % of the variance).
+struct StyleSpaceOptions {
+  int frames = 40;  // even
+  ComponentChoice components{};
+};
+
+// Gives a model of walking the space of styles that the style walker needs, learnt from the same
+// walks. Without styles, or with fewer than two straight cycles of any, the model stays without.
+void add_style_space(Model& model, const std::vector<Walk>& walks,
+                     const StyleSpaceOptions& options = {}, const RoleTable& roles = {});
 
 }  // namespace gait
