@@ -24,6 +24,7 @@ Command label_command(CLI::App& program);
 Command render_command(CLI::App& program);
 Command train_command(CLI::App& program);
 Command info_command(CLI::App& program);
+Command evaluate_command(CLI::App& program);
 Command reconstruct_command(CLI::App& program);
 
 }  // namespace gait::tool

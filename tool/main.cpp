@@ -87,6 +87,7 @@ int main(int argc, char** argv) try {
       gait::tool::label_command(program),
       gait::tool::train_command(program),
       gait::tool::info_command(program),
+      gait::tool::evaluate_command(program),
       gait::tool::reconstruct_command(program),
       gait::tool::render_command(program),
   };

@@ -2,7 +2,7 @@
 
 #include <algorithm>
 #include <cmath>
-#include <limits>
+#include <numeric>
 
 #include "gait/error.h"
 #include "gait/judge/calibration.h"
@@ -10,6 +10,7 @@
 #include "gait/judge/played_sequence.h"
 #include "gait/judge/reconstructed_clip.h"
 #include "gait/model/body_pose.h"
+#include "gait/model/fitted_model.h"
 #include "gait/motion/contacts.h"
 #include "gait/motion/resample.h"
 
@@ -18,6 +19,13 @@ namespace gait {
 namespace {
 
 constexpr int fewest_steps = 2;
+constexpr double least_path = 0.5;  // metres; who stays in place has no path to compare
+
+// A last contact that ends with the clip may be rounded beyond it at another rate.
+std::vector<Contact> within(const Clip& clip, std::vector<Contact> contacts) {
+  for (Contact& contact : contacts) contact.frame = std::min(contact.frame, clip.frames() - 1);
+  return contacts;
+}
 
 // Mean over the counted streams of the size of the third difference, per second cubed.
 double mean_jerk(const Eigen::MatrixXd& outputs, int frame, const std::vector<bool>& counted,
@@ -62,7 +70,8 @@ class Evaluator {
     const JointRoles clip_roles = find_roles(clip.skeleton, role_table_);
     WalkTrack track = follow_walk(clip, clip_roles);
     if (!walk.contacts.empty())
-      track.contacts = contacts_at(walk.contacts, model_->frame_rate / walk.clip.frame_rate);
+      track.contacts =
+          within(clip, contacts_at(walk.contacts, model_->frame_rate / walk.clip.frame_rate));
     if (track.contacts.size() <= fewest_steps) {
       evaluation_.skipped.push_back(
           clip.name + ": expected at least " + std::to_string(fewest_steps) + " steps, found " +
@@ -75,11 +84,12 @@ class Evaluator {
     result.name = clip.name;
     result.style = walk.style;
     compare(truth, result);
-    compare_roots(clip, clip_roles, track, poses, result);
+    compare_roots(clip, clip_roles, matched, track, poses, result);
     evaluation_.clips.push_back(std::move(result));
   }
 
   Evaluation finish() {
+    std::sort(evaluation_.frame_microseconds.begin(), evaluation_.frame_microseconds.end());
     evaluation_.calibration_error = calibration_.value();
     return std::move(evaluation_);
   }
@@ -139,18 +149,24 @@ class Evaluator {
   }
 
   // The whole of it, as it would be played: times per frame, root from the feet, slide.
-  void compare_roots(const Clip& clip, const JointRoles& clip_roles, const WalkTrack& track,
+  void compare_roots(const Clip& clip, const JointRoles& clip_roles,
+                     const std::vector<int>& matched, const WalkTrack& track,
                      const BodyPoses& poses, EvaluatedClip& result) {
-    const ReconstructedClip walked =
-        reconstruct_clip(model_, poses, clip.frame_rate, clip.name, settings_);
+    const ReconstructedClip walked = reconstruct_clip(fitted_model(*model_, clip.skeleton, matched),
+                                                      poses, clip.frame_rate, clip.name, settings_);
     const JointRoles roles = body_roles(*model_->body);
     evaluation_.delay_frames = walked.delay_frames;
     evaluation_.frame_microseconds.insert(evaluation_.frame_microseconds.end(),
                                           walked.frame_microseconds.begin(),
                                           walked.frame_microseconds.end());
 
-    result.slide_captured = foot_slide(clip, clip_roles, track.contacts).mean;
-    result.slide_synthesised = foot_slide(walked.clip, roles, track.contacts).mean;
+    const auto slide = [&](const Clip& of, const JointRoles& its) {
+      const auto stances = foot_slide(of, its, track.contacts).stances;
+      result.stances = static_cast<int>(stances.size());
+      return std::accumulate(stances.begin(), stances.end(), 0.0);
+    };
+    result.slide_captured = slide(clip, clip_roles);
+    result.slide_synthesised = slide(walked.clip, roles);
     const auto path = [&](const Clip& of, const JointRoles& its) {
       const WorldPoses world = world_poses(of);
       const auto place = [&](int frame) {
@@ -162,7 +178,9 @@ class Evaluator {
       return (place(track.contacts.back().frame) - place(track.contacts.front().frame)).norm();
     };
     const double captured = path(clip, clip_roles);
-    result.path_ratio = track.treadmill || captured < 0.5 ? 0 : path(walked.clip, roles) / captured;
+    if (track.treadmill || captured < least_path) return;
+    result.path_captured = captured;
+    result.path_synthesised = path(walked.clip, roles);
   }
 
   std::shared_ptr<const Model> model_;
@@ -173,75 +191,16 @@ class Evaluator {
   CalibrationError calibration_;
 };
 
-constexpr double none = std::numeric_limits<double>::quiet_NaN();
-
-// Mean of per-clip shares, or of all frames together.
-template <typename Sum, typename Count>
-double averaged(const std::vector<EvaluatedClip>& clips, bool pooled, Sum sum, Count count) {
-  double total = 0, weight = 0;
-  for (const EvaluatedClip& clip : clips) {
-    const double frames = count(clip);
-    if (frames <= 0) continue;
-    total += pooled ? sum(clip) : sum(clip) / frames;
-    weight += pooled ? frames : 1;
-  }
-  return weight > 0 ? total / weight : none;
-}
-
-double counted_mean(const Eigen::VectorXd& sums, const std::vector<bool>& counted) {
-  double sum = 0;
-  int streams = 0;
-  for (std::size_t i = 0; i < counted.size(); ++i)
-    if (counted[i]) sum += sums[static_cast<Eigen::Index>(i)], ++streams;
-  return streams > 0 ? sum / streams : 0;
-}
-
 }  // namespace
 
-double Evaluation::error(Stage stage, bool pooled, const std::string& style) const {
-  return averaged(
-      clips, pooled,
-      [&](const EvaluatedClip& clip) {
-        return counted_mean(clip.angle_sums[static_cast<int>(stage)], counted);
-      },
-      [&](const EvaluatedClip& clip) {
-        return style.empty() || clip.style == style ? clip.frames : 0;
-      });
-}
-
-double Evaluation::stream_error(Stage stage, int stream) const {
-  return averaged(
-      clips, false,
-      [&](const EvaluatedClip& clip) { return clip.angle_sums[static_cast<int>(stage)][stream]; },
-      [](const EvaluatedClip& clip) { return clip.frames; });
-}
-
-double Evaluation::step_accuracy(bool pooled) const {
-  return averaged(
-      clips, pooled, [](const EvaluatedClip& clip) { return clip.right_steps; },
-      [](const EvaluatedClip& clip) { return clip.frames; });
-}
-
-double Evaluation::style_accuracy(bool pooled) const {
-  return averaged(
-      clips, pooled, [](const EvaluatedClip& clip) { return clip.right_styles; },
-      [](const EvaluatedClip& clip) { return clip.style_known ? clip.frames : 0; });
-}
-
-double Evaluation::style_accuracy_of_clips() const {
-  double right = 0, known = 0;
-  for (const EvaluatedClip& clip : clips) {
-    if (!clip.style_known) continue;
-    right += clip.best_style >= 0 && styles[clip.best_style] == clip.style;
-    known += 1;
-  }
-  return known > 0 ? right / known : none;
-}
-
 Evaluation evaluate(std::shared_ptr<const Model> model, const std::vector<Walk>& walks,
-                    const PlayerSettings& settings, const RoleTable& roles) {
+                    const PlayerSettings& settings, const RoleTable& roles,
+                    const std::function<void(double)>& progress) {
   Evaluator evaluator(std::move(model), settings, roles);
-  for (const Walk& walk : walks) evaluator.add(walk);
+  for (std::size_t i = 0; i < walks.size(); ++i) {
+    if (progress) progress(static_cast<double>(i) / static_cast<double>(walks.size()));
+    evaluator.add(walks[i]);
+  }
   Evaluation evaluation = evaluator.finish();
   if (evaluation.clips.empty())
     throw Error("expected at least one clip with steps to evaluate on; none of " +

@@ -5,6 +5,7 @@
 #pragma once
 
 #include <array>
+#include <functional>
 #include <memory>
 #include <string>
 #include <vector>
@@ -35,10 +36,18 @@ struct EvaluatedClip {
   // Truth, mapped, synthesised: sum over frames of the joints' mean jerk.
   double jerk_truth = 0, jerk_mapped = 0, jerk_synthesised = 0;
   int jerk_frames = 0;
-  double slide_captured = 0, slide_synthesised = 0;  // mm per stance
-  double path_ratio = 0;  // root's path from the feet over the captured path; 0: did not travel
+  // mm, sums over stances.
+  double slide_captured = 0, slide_synthesised = 0;
+  int stances = 0;
+  // From the first to the last contact, metres; 0 where the clip did not travel.
+  double path_captured = 0, path_synthesised = 0;
 };
 
+// Whose movement is meant where the truth is measured, too.
+enum class Source { truth, mapped, synthesised };
+
+// `pooled`: over all frames (or stances) together, else mean over clips. NaN where there is nothing
+// to average.
 struct Evaluation {
   std::vector<EvaluatedClip> clips;
   std::vector<std::string> skipped;        // clips with too few steps, each with the reason
@@ -47,20 +56,26 @@ struct Evaluation {
   std::vector<std::string> styles;         // the model's
   Eigen::MatrixXi confusion;               // true style by recognised style, frames
   double calibration_error = 0;            // of style posteriors, 0 to 1
-  std::vector<double> frame_microseconds;  // one per frame of all clips, in no order
+  std::vector<double> frame_microseconds;  // one per frame of all clips, ascending
   int delay_frames = 0;
 
   // Mean angle of the counted streams: over clips, or pooled over frames; of one style if named.
   double error(Stage stage, bool pooled, const std::string& style = {}) const;
-  double stream_error(Stage stage, int stream) const;  // over clips
+  double stream_error(Stage stage, int stream, bool pooled = false) const;
   double step_accuracy(bool pooled) const;
-  double style_accuracy(bool pooled) const;  // per frame; NaN without known styles
-  double style_accuracy_of_clips() const;    // share of clips; NaN without known styles
+  double style_accuracy(bool pooled) const;             // per frame; NaN without known styles
+  double style_accuracy_of_clips() const;               // share of clips; NaN without known styles
+  double jerk(Source source, bool pooled) const;        // mean over the counted streams
+  double foot_slide(Source source, bool pooled) const;  // per stance; of truth or synthesised
+  double path_ratio(bool pooled) const;      // root's path from the feet over the captured path
+  double frame_time(double quantile) const;  // microseconds; quantile 0 to 1
 };
 
 // Plays each walk through the model and compares. Walks that have too few steps are skipped, saying
-// so. Throws Error when a walk lacks the model's joints or when nothing is left.
+// so. `progress` is called before each walk with the share done; what it throws ends the work.
+// Throws Error when a walk lacks the model's joints or when nothing is left.
 Evaluation evaluate(std::shared_ptr<const Model> model, const std::vector<Walk>& walks,
-                    const PlayerSettings& settings, const RoleTable& roles = {});
+                    const PlayerSettings& settings, const RoleTable& roles = {},
+                    const std::function<void(double)>& progress = {});
 
 }  // namespace gait

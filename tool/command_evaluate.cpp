@@ -1,0 +1,69 @@
+// gait evaluate: a model against the truth in clips.
+#include <cstdio>
+#include <memory>
+#include <string>
+
+#include "commands.h"
+#include "evaluation_report.h"
+#include "gait/corpus/demo_model.h"
+#include "interrupt.h"
+#include "play_options.h"
+#include "progress.h"
+#include "walk_files.h"
+
+namespace gait::tool {
+
+namespace {
+
+struct EvaluateOptions {
+  std::string model;
+  WalkReading reading;
+  PlayerSettings settings;
+  bool json = false;
+};
+
+Evaluation judge(const std::shared_ptr<const Model>& model, const EvaluateOptions& options) {
+  const Interrupt interrupt;
+  Progress progress("gait evaluate:");
+  const WalksRead read =
+      read_walks(options.reading, "evaluate", [&](double share, const std::string& file) {
+        interrupt.check();
+        progress.show(0.3 * share, "reading " + file);
+      });
+  return evaluate(model, read.walks, options.settings, read.roles, [&](double share) {
+    interrupt.check();
+    progress.show(0.3 + 0.7 * share, "playing");
+  });
+}
+
+}  // namespace
+
+Command evaluate_command(CLI::App& program) {
+  const auto options = std::make_shared<EvaluateOptions>();
+  CLI::App* app = program.add_subcommand("evaluate", "Say how well a model does on captured walks");
+  app->add_option("MODEL", options->model, "Model file, or gait-demo: the one that is built in")
+      ->required()
+      ->default_str("")
+      ->type_name("");
+  add_walk_reading(*app, options->reading);
+  add_play_options(*app, options->settings);
+  app->add_flag("--json", options->json, "Report as JSON: every figure, per clip, style and joint");
+  app->footer(std::string(label_help) +
+              "\n\nFigures are means over clips, and pooled over frames where slow walkers count\n"
+              "for more.\n\n"
+              "Examples:\n"
+              "  gait evaluate walks.gait unseen/*.bvh\n"
+              "  gait evaluate walks.gait unseen --decoder forward --strength 1.2 --json");
+  return {app, [options] {
+            const auto model = std::make_shared<const Model>(model_named(options->model));
+            const Evaluation evaluation = judge(model, *options);
+            for (const std::string& skipped : evaluation.skipped)
+              std::fprintf(stderr, "gait evaluate: warning: left out: %s\n", skipped.c_str());
+            if (options->json)
+              print_json(evaluation, *model);
+            else
+              print_table(evaluation, *model);
+          }};
+}
+
+}  // namespace gait::tool

@@ -1,0 +1,259 @@
+#include "evaluation_report.h"
+
+#include <algorithm>
+#include <cmath>
+#include <cstdio>
+#include <nlohmann/json.hpp>
+#include <numbers>
+#include <string>
+#include <vector>
+
+namespace gait::tool {
+
+namespace {
+
+using nlohmann::ordered_json;
+
+constexpr double degrees = 180 / std::numbers::pi;
+
+// Styles of the clips, in the order they come; those the model does not know among them.
+std::vector<std::string> styles_of(const Evaluation& evaluation) {
+  std::vector<std::string> styles;
+  for (const EvaluatedClip& clip : evaluation.clips)
+    if (!clip.style.empty() && std::find(styles.begin(), styles.end(), clip.style) == styles.end())
+      styles.push_back(clip.style);
+  std::sort(styles.begin(), styles.end());
+  return styles;
+}
+
+int clips_of(const Evaluation& evaluation, const std::string& style) {
+  return static_cast<int>(
+      std::count_if(evaluation.clips.begin(), evaluation.clips.end(),
+                    [&](const EvaluatedClip& clip) { return clip.style == style; }));
+}
+
+double delay_ms(const Evaluation& evaluation, const Model& model) {
+  return 1000 * evaluation.delay_frames / model.frame_rate;
+}
+
+void print_row(const std::string& what, const char* format, double clips, double pooled,
+               const std::string& meaning) {
+  const auto number = [&](double value) {
+    char text[32];
+    if (std::isnan(value)) return std::string("-");
+    std::snprintf(text, sizeof text, format, value);
+    return std::string(text);
+  };
+  std::printf("  %-22s %9s %9s  %s\n", what.c_str(), number(clips).c_str(), number(pooled).c_str(),
+              meaning.c_str());
+}
+
+void print_recognition(const Evaluation& evaluation) {
+  print_row("step accuracy", "%.3f", evaluation.step_accuracy(false),
+            evaluation.step_accuracy(true), "share of frames with the right step, left or right");
+  if (std::isnan(evaluation.style_accuracy(false))) return;
+  print_row("style accuracy", "%.3f", evaluation.style_accuracy(false),
+            evaluation.style_accuracy(true), "share of frames with the right style");
+  print_row("  of whole clips", "%.3f", evaluation.style_accuracy_of_clips(), NAN,
+            "share of clips with the right style");
+  print_row("  calibration error", "%.3f", NAN, evaluation.calibration_error,
+            "gap between how sure of the style and how often right; 0 is best");
+}
+
+void print_outputs(const Evaluation& evaluation) {
+  const char* meanings[] = {"angle to the true joint, degrees, were nothing done but to average",
+                            "if the average pose of the recognised moment stood in",
+                            "if this walk's own way is mapped onto it",
+                            "what comes out: the same, smoothed"};
+  for (const Stage stage : stages)
+    print_row("error, " + std::string(stage_name(stage)), "%.2f",
+              evaluation.error(stage, false) * degrees, evaluation.error(stage, true) * degrees,
+              meanings[static_cast<int>(stage)]);
+  const std::pair<Source, const char*> sources[] = {
+      {Source::truth, "truth"}, {Source::mapped, "mapped"}, {Source::synthesised, "synthesised"}};
+  for (const auto& [source, name] : sources)
+    print_row("jerk, " + std::string(name), "%.0f", evaluation.jerk(source, false),
+              evaluation.jerk(source, true),
+              source == Source::truth ? "how abruptly joints move, rad/s^3" : "");
+  print_row("foot slide, captured", "%.0f", evaluation.foot_slide(Source::truth, false),
+            evaluation.foot_slide(Source::truth, true),
+            "mm the standing foot travels per stance in the clips");
+  print_row("foot slide, found", "%.0f", evaluation.foot_slide(Source::synthesised, false),
+            evaluation.foot_slide(Source::synthesised, true), "the same in what comes out");
+  print_row("path", "%.3f", evaluation.path_ratio(false), evaluation.path_ratio(true),
+            "way the found feet carry the hips, over the captured way; 1 is best");
+}
+
+void print_styles(const Evaluation& evaluation) {
+  const auto styles = styles_of(evaluation);
+  if (styles.empty()) return;
+  std::printf("\nBy style: error in degrees, means over clips\n  %-16s %5s", "", "clips");
+  for (const Stage stage : stages) std::printf(" %12s", std::string(stage_name(stage)).c_str());
+  std::printf("\n");
+  for (const std::string& style : styles) {
+    std::printf("  %-16s %5d", style.c_str(), clips_of(evaluation, style));
+    for (const Stage stage : stages)
+      std::printf(" %12.2f", evaluation.error(stage, false, style) * degrees);
+    std::printf("\n");
+  }
+}
+
+void print_joints(const Evaluation& evaluation) {
+  std::printf("\nBy joint: error in degrees, means over clips\n  %-22s", "");
+  for (const Stage stage : stages) std::printf(" %12s", std::string(stage_name(stage)).c_str());
+  std::printf("\n");
+  for (std::size_t i = 0; i < evaluation.output_names.size(); ++i) {
+    std::printf("  %-22s", evaluation.output_names[i].c_str());
+    for (const Stage stage : stages)
+      std::printf(" %12.2f", evaluation.stream_error(stage, static_cast<int>(i)) * degrees);
+    std::printf("%s\n", evaluation.counted[i] ? "" : "  (not in the errors above)");
+  }
+}
+
+void print_confusion(const Evaluation& evaluation) {
+  if (evaluation.confusion.sum() == 0) return;
+  std::printf("\nStyles: a row's walks were taken for (%% of frames)\n  %-16s", "");
+  for (const std::string& style : evaluation.styles) std::printf(" %7.7s", style.c_str());
+  std::printf("\n");
+  for (Eigen::Index row = 0; row < evaluation.confusion.rows(); ++row) {
+    const double all = evaluation.confusion.row(row).sum();
+    if (all == 0) continue;
+    std::printf("  %-16s", evaluation.styles[row].c_str());
+    for (Eigen::Index column = 0; column < evaluation.confusion.cols(); ++column) {
+      const int count = evaluation.confusion(row, column);
+      count == 0 ? std::printf(" %7s", ".") : std::printf(" %7.1f", 100 * count / all);
+    }
+    std::printf("\n");
+  }
+}
+
+// JSON knows no NaN: what could not be measured is null.
+ordered_json number(double value) {
+  return std::isfinite(value) ? ordered_json(value) : ordered_json(nullptr);
+}
+ordered_json both(double clips, double pooled) {
+  return {{"clips", number(clips)}, {"pooled", number(pooled)}};
+}
+std::string key_of(Stage stage) {
+  std::string key(stage_name(stage));
+  std::replace(key.begin(), key.end(), ' ', '_');
+  return key;
+}
+
+ordered_json errors_json(const Evaluation& evaluation, const std::string& style) {
+  ordered_json errors;
+  for (const Stage stage : stages)
+    errors[key_of(stage)] = both(evaluation.error(stage, false, style) * degrees,
+                                 evaluation.error(stage, true, style) * degrees);
+  return errors;
+}
+
+ordered_json jerk_json(const Evaluation& evaluation) {
+  const auto of = [&](Source source) {
+    return both(evaluation.jerk(source, false), evaluation.jerk(source, true));
+  };
+  return {{"truth", of(Source::truth)},
+          {"mapped", of(Source::mapped)},
+          {"synthesised", of(Source::synthesised)}};
+}
+
+ordered_json clip_json(const EvaluatedClip& clip, const Evaluation& evaluation) {
+  Evaluation alone;
+  alone.counted = evaluation.counted;
+  alone.styles = evaluation.styles;
+  alone.clips = {clip};
+  ordered_json errors;
+  for (const Stage stage : stages)
+    errors[key_of(stage)] = number(alone.error(stage, false) * degrees);
+  return {{"clip", clip.name},
+          {"style", clip.style},
+          {"recognised_style",
+           clip.best_style < 0 ? std::string() : evaluation.styles[clip.best_style]},
+          {"frames", clip.frames},
+          {"step_accuracy", number(alone.step_accuracy(false))},
+          {"style_accuracy", number(alone.style_accuracy(false))},
+          {"output_error_deg", errors},
+          {"path_ratio", number(alone.path_ratio(false))},
+          {"foot_slide_mm",
+           {{"captured", number(alone.foot_slide(Source::truth, false))},
+            {"synthesised", number(alone.foot_slide(Source::synthesised, false))}}}};
+}
+
+ordered_json confusion_json(const Evaluation& evaluation) {
+  ordered_json rows = ordered_json::array();
+  for (Eigen::Index row = 0; row < evaluation.confusion.rows(); ++row) {
+    ordered_json columns = ordered_json::array();
+    for (Eigen::Index column = 0; column < evaluation.confusion.cols(); ++column)
+      columns.push_back(evaluation.confusion(row, column));
+    rows.push_back(columns);
+  }
+  return {{"styles", evaluation.styles}, {"frames", rows}};
+}
+
+}  // namespace
+
+void print_table(const Evaluation& evaluation, const Model& model) {
+  std::printf("%s on %zu clips%s\n", model.name.c_str(), evaluation.clips.size(),
+              model.training.synthetic ? " (the model is synthetic)" : "");
+  std::printf("  %-22s %9s %9s\n", "", "clips", "pooled");
+  print_recognition(evaluation);
+  print_outputs(evaluation);
+  std::printf("  %-22s %.0f, %.0f, %.0f  microseconds: median, 99 of 100, longest\n",
+              "time per frame", evaluation.frame_time(0.5), evaluation.frame_time(0.99),
+              evaluation.frame_time(1));
+  std::printf("  %-22s %d frames, %.0f ms\n", "delay", evaluation.delay_frames,
+              delay_ms(evaluation, model));
+  print_styles(evaluation);
+  print_joints(evaluation);
+  print_confusion(evaluation);
+}
+
+void print_json(const Evaluation& evaluation, const Model& model) {
+  ordered_json styles = ordered_json::object(), joints = ordered_json::object();
+  for (const std::string& style : styles_of(evaluation))
+    styles[style] = {{"clips", clips_of(evaluation, style)},
+                     {"output_error_deg", errors_json(evaluation, style)}};
+  for (std::size_t i = 0; i < evaluation.output_names.size(); ++i) {
+    const int stream = static_cast<int>(i);
+    ordered_json errors;
+    for (const Stage stage : stages)
+      errors[key_of(stage)] = both(evaluation.stream_error(stage, stream, false) * degrees,
+                                   evaluation.stream_error(stage, stream, true) * degrees);
+    joints[evaluation.output_names[i]] = {{"counted", bool(evaluation.counted[i])},
+                                          {"output_error_deg", errors}};
+  }
+  ordered_json clips = ordered_json::array();
+  for (const EvaluatedClip& clip : evaluation.clips) clips.push_back(clip_json(clip, evaluation));
+
+  const ordered_json report{
+      {"model", model.name},
+      {"synthetic", model.training.synthetic},
+      {"clips", evaluation.clips.size()},
+      {"skipped", evaluation.skipped},
+      {"step_accuracy", both(evaluation.step_accuracy(false), evaluation.step_accuracy(true))},
+      {"style_accuracy", both(evaluation.style_accuracy(false), evaluation.style_accuracy(true))},
+      {"style_accuracy_of_clips", number(evaluation.style_accuracy_of_clips())},
+      {"style_calibration_error", std::isnan(evaluation.style_accuracy(true))
+                                      ? ordered_json(nullptr)
+                                      : number(evaluation.calibration_error)},
+      {"style_confusion", confusion_json(evaluation)},
+      {"output_error_deg", errors_json(evaluation, "")},
+      {"jerk", jerk_json(evaluation)},
+      {"foot_slide_mm",
+       {{"captured", both(evaluation.foot_slide(Source::truth, false),
+                          evaluation.foot_slide(Source::truth, true))},
+        {"synthesised", both(evaluation.foot_slide(Source::synthesised, false),
+                             evaluation.foot_slide(Source::synthesised, true))}}},
+      {"path_ratio", both(evaluation.path_ratio(false), evaluation.path_ratio(true))},
+      {"frame_microseconds",
+       {{"p50", number(evaluation.frame_time(0.5))},
+        {"p99", number(evaluation.frame_time(0.99))},
+        {"max", number(evaluation.frame_time(1))}}},
+      {"delay", {{"frames", evaluation.delay_frames}, {"ms", delay_ms(evaluation, model)}}},
+      {"by_style", styles},
+      {"by_joint", joints},
+      {"by_clip", clips}};
+  std::puts(report.dump(2, ' ', false, nlohmann::json::error_handler_t::replace).c_str());
+}
+
+}  // namespace gait::tool
