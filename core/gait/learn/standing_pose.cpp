@@ -12,8 +12,10 @@ namespace {
 
 using Pose = std::vector<Eigen::Quaterniond>;
 
-// The standing foot carries the body alone and its sole is flat; phases from its own contact.
+// Phases from a leg's own contact: its foot carries the body alone and lies flat; later, before the
+// heel rises, the knee is as straight as in standing.
 constexpr double flat_from = 0.18, flat_until = 0.32;
+constexpr double straight_from = 0.34, straight_until = 0.42;
 // Offsets of a mirrored pair may differ by what measuring a person's bones leaves.
 constexpr double uneven_share = 0.35, uneven_metres = 0.03;
 
@@ -71,6 +73,20 @@ Eigen::Quaterniond in_world(const Skeleton& skeleton, const Pose& pose, int join
     if (joint == hips) break;
   }
   return rotation;
+}
+
+// Turns a thigh about the axis across the body (X: heading is out) until the ankle is neither ahead
+// of it nor behind.
+void set_upright(const Skeleton& skeleton, const Leg& leg, int hips, Pose& pose) {
+  Eigen::Vector3d to_ankle = Eigen::Vector3d::Zero();
+  for (int joint = leg.foot; joint != leg.thigh; joint = skeleton.joints[joint].parent)
+    to_ankle += in_world(skeleton, pose, skeleton.joints[joint].parent, hips) *
+                skeleton.joints[joint].offset;
+  const Eigen::Quaterniond turn(
+      Eigen::AngleAxisd(std::atan2(to_ankle.z(), -to_ankle.y()), Eigen::Vector3d::UnitX()));
+  const Eigen::Quaterniond above =
+      in_world(skeleton, pose, skeleton.joints[leg.thigh].parent, hips);
+  pose[leg.thigh] = above.conjugate() * turn * above * pose[leg.thigh];
 }
 
 class MeanCycle {
@@ -150,9 +166,10 @@ Eigen::VectorXd standing_pose(const Body& body, const std::vector<int>& joints,
     // Each leg from its own stance: right from phase 0, left from 0.5.
     const bool right = is_below(skeleton, joint, roles.right.thigh);
     const bool left = is_below(skeleton, joint, roles.left.thigh);
+    const bool knee = joint == roles.right.shank || joint == roles.left.shank;
     const double contact = left ? 0.5 : 0.0;
-    const double from = left || right ? contact + flat_from : 0.0;
-    const double until = left || right ? contact + flat_until : 1.0;
+    const double from = contact + (knee ? straight_from : left || right ? flat_from : 0.0);
+    const double until = contact + (knee ? straight_until : left || right ? flat_until : 1.0);
     pose[joint] = mean.mean(from, until, [&](const Pose& at) { return at[joint]; });
   }
   const auto flat = [&](int foot, double contact) {
@@ -168,9 +185,11 @@ Eigen::VectorXd standing_pose(const Body& body, const std::vector<int>& joints,
     right_sole = halfway(right_sole, mirrored(left_sole, axis));
     left_sole = mirrored(right_sole, axis);
   }
-  for (const auto& [leg, sole] : {std::pair{roles.right, right_sole}, {roles.left, left_sole}})
+  for (const auto& [leg, sole] : {std::pair{roles.right, right_sole}, {roles.left, left_sole}}) {
+    set_upright(skeleton, leg, roles.hips, pose);
     pose[leg.foot] =
         in_world(skeleton, pose, skeleton.joints[leg.foot].parent, roles.hips).conjugate() * sole;
+  }
 
   Eigen::VectorXd values(3 * static_cast<Eigen::Index>(joints.size()));
   pose_vector<double>(pose, body.references, joints,
