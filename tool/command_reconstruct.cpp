@@ -59,7 +59,7 @@ Command reconstruct_command(CLI::App& program) {
   app->add_option("--root", options->root,
                   "Where the hips go: feet (as the found feet carry them, from the origin ahead) "
                   "or keep (place and heading of the clip)")
-      ->check(CLI::IsMember({"feet", "keep"}))
+      ->check(CLI::IsMember({"feet", "keep"}).description(""))
       ->type_name("feet|keep");
   app->add_option("--csv", options->table,
                   "Table to write, a row per frame: time, step, state, log-likelihood, phase, "

@@ -15,6 +15,7 @@
 #include "gait/learn/parallel.h"
 #include "gait/model/model_file.h"
 #include "interrupt.h"
+#include "number_range.h"
 #include "output_file.h"
 #include "play_options.h"
 #include "progress.h"
@@ -142,23 +143,29 @@ Command train_command(CLI::App& program) {
   app->add_option("--output-joints", options->output_joints,
                   "Joints to synthesise, a,b,... (hips and legs)")
       ->delimiter(',')
+      ->allow_extra_args(false)
+      ->default_str("")
       ->type_name("NAMES");
   app->add_option("--input-joints", options->input_joints,
                   "Joints that are measured, a,b,... (all but hips and legs)")
       ->delimiter(',')
+      ->allow_extra_args(false)
+      ->default_str("")
       ->type_name("NAMES");
   app->add_option("--rate", options->rate,
                   "The model's frames per second (30, or the clips' own when slower)")
-      ->check(CLI::Range(5.0, 240.0))
+      ->check(within(5.0, 240.0))
       ->type_name("HZ");
   app->add_option("--history", options->history,
                   "How far back inputs are compared with themselves, in ms (33.3,166.7,333.3)")
       ->delimiter(',')
-      ->check(CLI::Range(1.0, 2000.0))
+      ->allow_extra_args(false)
+      ->default_str("")
+      ->check(within(1.0, 2000.0))
       ->type_name("MS,MS,..");
   app->add_option("--regularisation", options->regularisation,
                   "How firmly covariances are held, in frames (by cross-validation)")
-      ->check(CLI::Range(0.01, 1e6))
+      ->check(within(0.01, 1e6))
       ->type_name("K");
   app->add_option("--rounds", options->rounds, "Rounds of Baum-Welch (by cross-validation)")
       ->check(CLI::Range(0, 100))

@@ -1,6 +1,7 @@
 #include "play_options.h"
 
 #include "gait/model/model_words.h"
+#include "number_range.h"
 
 namespace gait::tool {
 
@@ -29,7 +30,7 @@ void add_decoder(CLI::App& command, std::optional<DecoderKind>& decoder, const s
               if (word == name) decoder = kind;
           },
           help)
-      ->check(CLI::IsMember(decoder_names()))
+      ->check(CLI::IsMember(decoder_names()).description(""))
       ->type_name("viterbi|forward|lag");
 }
 
@@ -38,17 +39,17 @@ void add_play_options(CLI::App& command, PlayerSettings& settings) {
   command
       .add_option("--lag", settings.lag,
                   "Seconds by which --decoder lag decides late (the model's own)")
-      ->check(CLI::Range(0.0, 5.0))
+      ->check(within(0.0, 5.0))
       ->type_name("S");
   command
       .add_option("--temper", settings.temper,
                   "Exponent on the evidence of --decoder forward (the model's own)")
-      ->check(CLI::Range(1e-4, 10.0))
+      ->check(within(1e-4, 10.0))
       ->type_name("X");
   command
       .add_option("--strength", settings.strength,
                   "0: the average walk, 1: this walk, above: a caricature (the model's own)")
-      ->check(CLI::Range(0.0, 10.0))
+      ->check(within(0.0, 10.0))
       ->type_name("S");
   command.add_option("--past", settings.past, "Frames of the past that smooth (the model's own)")
       ->check(CLI::Range(0, 600))

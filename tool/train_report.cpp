@@ -31,10 +31,11 @@ std::vector<std::string> words_of_caution(const TrainReport& report) {
   int used = 0, styled = 0;
   for (const WalkUse& use : report.walks.uses)
     used += use.used, styled += use.used && !use.style.empty();
+  std::string single;
   for (const auto& [style, count] : clips)
-    if (count == 1)
-      words.push_back("style " + style +
-                      " has one clip: how well it is recognised could not be validated");
+    if (count == 1) single += (single.empty() ? "" : ", ") + style;
+  if (!single.empty())
+    words.push_back("styles with one clip, whose recognition could not be validated: " + single);
   if (clips.size() == 1) words.push_back("one style alone: there is nothing to tell apart");
   if (styled > 0 && styled < used)
     words.push_back(std::to_string(used - styled) + " of " + std::to_string(used) +
@@ -73,7 +74,7 @@ void print_validation(const TrainReport& report) {
               "error", training.validated_error * degrees);
   std::printf("  %-22s %8.3f      share of frames with the right step\n", "step accuracy",
               training.validated_step_accuracy);
-  if (!report.walks.styles.empty()) {
+  if (training.validated_style_accuracy > 0) {
     std::printf("  %-22s %8.3f      share of frames with the right style\n", "style accuracy",
                 training.validated_style_accuracy);
     std::printf("  %-22s %8.3f      gap between how sure of the style and how often right\n",
@@ -154,7 +155,7 @@ void print_json(const TrainReport& report) {
   if (report.selected.folds > 0) {
     out["validated"] = {{"output_error_deg", training.validated_error * degrees},
                         {"step_accuracy", training.validated_step_accuracy}};
-    if (!report.walks.styles.empty()) {
+    if (training.validated_style_accuracy > 0) {
       out["validated"]["style_accuracy"] = training.validated_style_accuracy;
       out["validated"]["calibration_error"] = training.validated_calibration_error;
     }
