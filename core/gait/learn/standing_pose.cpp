@@ -75,15 +75,14 @@ Eigen::Quaterniond in_world(const Skeleton& skeleton, const Pose& pose, int join
   return rotation;
 }
 
-// Turns a thigh about the axis across the body (X: heading is out) until the ankle is neither ahead
-// of it nor behind.
+// Turns a thigh until the ankle is straight below it: who bears his weight on one leg has that foot
+// below the middle of the body, and two such feet would be in each other's way.
 void set_upright(const Skeleton& skeleton, const Leg& leg, int hips, Pose& pose) {
   Eigen::Vector3d to_ankle = Eigen::Vector3d::Zero();
   for (int joint = leg.foot; joint != leg.thigh; joint = skeleton.joints[joint].parent)
     to_ankle += in_world(skeleton, pose, skeleton.joints[joint].parent, hips) *
                 skeleton.joints[joint].offset;
-  const Eigen::Quaterniond turn(
-      Eigen::AngleAxisd(std::atan2(to_ankle.z(), -to_ankle.y()), Eigen::Vector3d::UnitX()));
+  const auto turn = Eigen::Quaterniond::FromTwoVectors(to_ankle, -Eigen::Vector3d::UnitY());
   const Eigen::Quaterniond above =
       in_world(skeleton, pose, skeleton.joints[leg.thigh].parent, hips);
   pose[leg.thigh] = above.conjugate() * turn * above * pose[leg.thigh];
