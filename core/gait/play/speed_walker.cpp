@@ -110,7 +110,7 @@ void SpeedWalker::reset() noexcept {
 }
 
 void SpeedWalker::advance(double seconds) noexcept {
-  if (!(seconds > 0)) return;
+  if (!(seconds > 0) || !std::isfinite(seconds)) return;
   seconds = std::min(seconds, longest_frame);
   const auto dt = static_cast<float>(seconds);
   change_subjects(dt / seconds_of_change);
