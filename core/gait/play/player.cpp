@@ -122,9 +122,12 @@ void Player::keep_tables_current() noexcept {
       map_.use(fresh);
     }
     maker_.take(tables_);
+    awaiting_ = false;
   }
-  if (wanted_ != masked_ && maker_.ask(wanted_))
+  if (wanted_ != masked_ && maker_.ask(wanted_)) {
+    awaiting_ = true;
     for (std::size_t i = 0; i < wanted_.size(); ++i) masked_[i] = wanted_[i];
+  }
 }
 
 void Player::advance(std::span<const float> values) noexcept {

@@ -74,6 +74,9 @@ class Player {
   // An input value that is missing is held, then left out of the decoder as soon as tables without
   // it are made; when it comes back, it counts again once its whole history is real.
   void set_missing(int value, bool missing) noexcept;
+  // Whether the decoder sees exactly the inputs that are there with their history; false while
+  // tables for that are awaited.
+  bool settled() const noexcept { return !awaiting_ && wanted_ == masked_; }
 
   void set_strength(float strength) noexcept { map_.set_strength(strength); }
   void set_strength(int value, float strength) noexcept { map_.set_strength(value, strength); }
@@ -114,6 +117,7 @@ class Player {
   std::vector<bool> missing_;          // as told
   std::vector<int> returned_;          // real frames in a row, up to the history and one
   std::vector<bool> wanted_, masked_;  // masks: that should be, that is in the tables or asked for
+  bool awaiting_ = false;              // asked, and not taken yet
   std::vector<Held> ring_;
   int newest_ = 0;
   int taken_ = 0, mapped_ = 0, emitted_ = 0;  // frames so far
