@@ -2,6 +2,7 @@
 
 #include <algorithm>
 #include <cmath>
+#include <limits>
 
 #include "gait/error.h"
 #include "gait/motion/heading.h"
@@ -17,7 +18,11 @@ constexpr double shortest_step_seconds = 0.18;  // a stumble, not a step
 class Walk {
  public:
   Walk(const Clip& clip, const JointRoles& roles, const WorldPoses& world)
-      : roles_(roles), world_(world), joints_(clip.skeleton.size()), frames_(clip.frames()) {}
+      : skeleton_(clip.skeleton),
+        roles_(roles),
+        world_(world),
+        joints_(clip.skeleton.size()),
+        frames_(clip.frames()) {}
 
   int frames() const { return frames_; }
   const Eigen::Vector3d& position(int frame, int joint) const {
@@ -30,7 +35,32 @@ class Walk {
         .dot(heading_direction(heading[frame]));
   }
 
+  // How far from one frame to another the point of a foot goes back against the hips that goes back
+  // farthest, metres: the one that is on the ground. The foot's joint alone travels while the foot
+  // rolls, and loses a twentieth.
+  double stance_travel(int from, int to, Foot which, const std::vector<double>& heading) const {
+    double farthest = std::numeric_limits<double>::lowest();
+    const auto ahead_of_hips = [&](int frame, int joint, const Eigen::Vector3d& tip) {
+      const auto& rotation = world_.rotations[static_cast<std::size_t>(frame) * joints_ + joint];
+      return (position(frame, joint) + rotation * tip - position(frame, roles_.hips))
+          .dot(heading_direction(heading[from]));
+    };
+    const auto look_at = [&](int joint, const Eigen::Vector3d& tip) {
+      farthest =
+          std::max(farthest, ahead_of_hips(from, joint, tip) - ahead_of_hips(to, joint, tip));
+    };
+    for (int joint = foot(which); joint < joints_; ++joint) {
+      int above = joint;
+      while (above > foot(which)) above = skeleton_.joints[above].parent;
+      if (above != foot(which)) continue;
+      look_at(joint, Eigen::Vector3d::Zero());
+      for (const Eigen::Vector3d& tip : skeleton_.joints[joint].tips) look_at(joint, tip);
+    }
+    return farthest;
+  }
+
  private:
+  const Skeleton& skeleton_;
   const JointRoles& roles_;
   const WorldPoses& world_;
   int joints_, frames_;
@@ -86,17 +116,23 @@ double median_cycle(const std::vector<Contact>& contacts, double frame_rate) {
   return lengths[lengths.size() / 2] / frame_rate;
 }
 
-// Median backward speed of the standing foot against the hips, in the middle of its stance.
+// Median over the steps of the standing foot's mean backward speed against the hips.
 double stance_speed(const Walk& walk, const WalkTrack& track, double frame_rate) {
   std::vector<double> speeds;
   for (std::size_t i = 0; i + 1 < track.contacts.size(); ++i) {
     const Contact& contact = track.contacts[i];
     const int length = track.contacts[i + 1].frame - contact.frame;
-    const int begin = contact.frame + length / 4, end = contact.frame + (3 * length) / 4;
-    if (end <= begin) continue;
-    speeds.push_back((walk.ahead(begin, contact.foot, track.heading) -
-                      walk.ahead(end, contact.foot, track.heading)) *
-                     frame_rate / (end - begin));
+    // Without the landing and the other foot's. Over a thirtieth of a second at a time: frame by
+    // frame the trembling of sensors would look like speed.
+    const int end = contact.frame + (9 * length) / 10;
+    const int stride = std::max(1, static_cast<int>(std::lround(frame_rate / 30)));
+    double travel = 0;
+    int frames = 0;
+    for (int frame = contact.frame + length / 10; frame + stride <= end; frame += stride) {
+      travel += walk.stance_travel(frame, frame + stride, contact.foot, track.heading);
+      frames += stride;
+    }
+    if (frames > 0) speeds.push_back(travel * frame_rate / frames);
   }
   if (speeds.empty()) return 0;
   std::nth_element(speeds.begin(), speeds.begin() + speeds.size() / 2, speeds.end());
