@@ -1,0 +1,123 @@
+#include "gait/judge/evaluation.h"
+
+#include <gtest/gtest.h>
+
+#include <cmath>
+
+#include "gait/error.h"
+#include "gait/judge/played_sequence.h"
+#include "play/few_walks.h"
+
+namespace gait {
+namespace {
+
+using testing::few_walks_model;
+using testing::plan_of;
+using testing::streams_of;
+using testing::walk_of;
+
+std::vector<Walk> unseen_walks() {
+  return {walk_of(make_walk(plan_of("sad", 9))), walk_of(make_walk(plan_of("in-a-hurry", 9))),
+          walk_of(make_walk(plan_of("heavy", 9)))};
+}
+
+const Evaluation& evaluation() {
+  static const Evaluation done = evaluate(few_walks_model(), unseen_walks(), {});
+  return done;
+}
+
+TEST(Evaluation, each_stage_adds_something) {
+  const Evaluation& all = evaluation();
+  ASSERT_EQ(all.clips.size(), 3u);
+  for (const bool pooled : {false, true}) {
+    EXPECT_GT(all.error(Stage::mean_pose, pooled), all.error(Stage::state_means, pooled));
+    EXPECT_GT(all.error(Stage::state_means, pooled), all.error(Stage::mapped, pooled));
+    EXPECT_LT(all.error(Stage::synthesised, pooled), all.error(Stage::mapped, pooled) + 0.001);
+    EXPECT_GT(all.step_accuracy(pooled), 0.9);
+  }
+  for (const EvaluatedClip& clip : all.clips) {
+    EXPECT_LT(clip.jerk_synthesised, clip.jerk_mapped) << clip.name;
+    EXPECT_GT(clip.jerk_truth, 0);
+    EXPECT_NEAR(clip.path_ratio, 1, 0.15) << clip.name;
+    EXPECT_GE(clip.slide_captured, 0);
+    EXPECT_GT(clip.slide_synthesised, 0);
+  }
+}
+
+TEST(Evaluation, means_over_clips_and_frames_are_what_they_say) {
+  const Evaluation& all = evaluation();
+  double over_clips = 0, sum = 0, frames = 0;
+  for (const EvaluatedClip& clip : all.clips) {
+    double joints = 0, counted = 0;
+    for (std::size_t i = 0; i < all.counted.size(); ++i)
+      if (all.counted[i]) joints += clip.angle_sums[2][static_cast<Eigen::Index>(i)], ++counted;
+    over_clips += joints / counted / clip.frames / static_cast<double>(all.clips.size());
+    sum += joints / counted;
+    frames += clip.frames;
+  }
+  EXPECT_NEAR(all.error(Stage::mapped, false), over_clips, 1e-12);
+  EXPECT_NEAR(all.error(Stage::mapped, true), sum / frames, 1e-12);
+  int hips = 0;
+  for (std::size_t i = 0; i < all.counted.size(); ++i) hips += !all.counted[i];
+  EXPECT_EQ(hips, 1) << "the hips are not counted";
+  EXPECT_GT(static_cast<double>(all.frame_microseconds.size()), frames)
+      << "all frames of the clips are timed";
+}
+
+TEST(Evaluation, counts_styles_that_the_model_knows) {
+  const Evaluation& all = evaluation();
+  EXPECT_TRUE(all.clips[0].style_known);
+  EXPECT_FALSE(all.clips[2].style_known) << "heavy was not taught";
+  EXPECT_EQ(all.confusion.sum(), all.clips[0].frames + all.clips[1].frames);
+  EXPECT_NEAR(all.style_accuracy(true),
+              all.confusion.diagonal().sum() / static_cast<double>(all.confusion.sum()), 1e-12);
+  EXPECT_GT(all.style_accuracy(false), 0.8);
+  EXPECT_EQ(all.style_accuracy_of_clips(), 1);
+  EXPECT_TRUE(std::isnan(all.error(Stage::mapped, false, "no such style")));
+  EXPECT_GT(all.error(Stage::mapped, false, "sad"), 0);
+  EXPECT_GE(all.calibration_error, 0);
+  EXPECT_LE(all.calibration_error, 1);
+}
+
+TEST(Evaluation, errors_are_those_of_a_sequence_played_by_hand) {
+  const auto model = few_walks_model();
+  PlayerSettings settings;
+  settings.decoder = DecoderKind::viterbi;
+  const CorpusWalk walk = make_walk(plan_of("sad", 9));
+  const Evaluation one = evaluate(model, {walk_of(walk)}, settings);
+  const Sequence truth =
+      walk_sequence(*model->body,
+                    body_poses(walk.clip, *model->body,
+                               match_joints(*model->body, walk.clip.skeleton, walk.clip.name), 1.1),
+                    walk.contacts, walk.clip.name);
+  const PlayedSequence played = play_sequence(model, settings, truth);
+  int right = 0;
+  double knee = 0;
+  const int stream = 2;
+  for (int frame = played.begin; frame < played.end; ++frame) {
+    right += played.decisions[frame].label == played.true_label[frame];
+    knee += stream_errors(*model, played.outputs.col(frame), truth.outputs.col(frame))[stream];
+  }
+  const double frames = played.end - played.begin;
+  EXPECT_NEAR(one.step_accuracy(true), right / frames, 1e-12);
+  EXPECT_NEAR(one.stream_error(Stage::synthesised, stream), knee / frames, 1e-9);
+}
+
+TEST(Evaluation, skips_clips_without_steps_and_says_so) {
+  std::vector<Walk> walks = unseen_walks();
+  walks[1].contacts.resize(2);
+  const Evaluation some = evaluate(few_walks_model(), walks, {});
+  EXPECT_EQ(some.clips.size(), 2u);
+  ASSERT_EQ(some.skipped.size(), 1u);
+  EXPECT_NE(some.skipped[0].find("found 1"), std::string::npos);
+  EXPECT_THROW(evaluate(few_walks_model(), {walks[1]}, {}), Error);
+}
+
+TEST(Evaluation, delays_count) {
+  PlayerSettings settings;
+  settings.future = 4;
+  EXPECT_EQ(evaluate(few_walks_model(), {unseen_walks()[0]}, settings).delay_frames, 4);
+}
+
+}  // namespace
+}  // namespace gait
