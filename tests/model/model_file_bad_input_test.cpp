@@ -155,7 +155,7 @@ TEST(BadModelFile, a_field_that_is_missing_is_named) {
         for (const auto& [key, unused] : value.items()) {
           std::string missing = name;
           missing += (name.empty() ? "" : ".") + key;
-          if (missing != "body") {
+          if (missing != "body" && missing != "input_mean") {
             expect_says(error_after([&](json& bent) { bent.at(at).erase(key); }),
                         key == "format" ? "format" : missing + ": expected this field, found none");
             ++fields;

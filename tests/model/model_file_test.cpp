@@ -62,13 +62,18 @@ TEST_F(ModelFile, a_model_without_body_styles_or_outputs_is_kept_as_well) {
   model.output_scaling = {};
   model.output_mean.resize(0);
   const int inputs = model.input.size();
-  for (Label& label : model.labels)
+  model.input_mean.resize(0);
+  for (Label& label : model.labels) {
+    label.style_durations.resize(0);
     for (State& state : label.states) {
+      state.trajectory_means.resize(0, 0);
+      state.trajectory_variances.resize(0);
       state.mean = state.mean.head(inputs).eval();
       state.covariance = state.covariance.topLeftCorner(inputs, inputs).eval();
       state.style_means.resize(0, 0);
       state.style_covariance.resize(0, 0);
     }
+  }
   testing::expect_same(model, parse_model(model_bytes(model), "small"));
 }
 

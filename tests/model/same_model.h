@@ -64,7 +64,8 @@ inline void expect_same(const Joint& a, const Joint& b) {
 }
 
 inline void expect_same(const State& a, const State& b) {
-  const auto& [mean, covariance, stay, duration, weight, style_means, style_covariance] = a;
+  const auto& [mean, covariance, stay, duration, weight, style_means, style_covariance,
+               trajectory_means, trajectory_variances] = a;
   expect_same(mean, b.mean);
   expect_same(covariance, b.covariance);
   expect_same(stay, b.stay);
@@ -72,10 +73,13 @@ inline void expect_same(const State& a, const State& b) {
   expect_same(weight, b.weight);
   expect_same(style_means, b.style_means);
   expect_same(style_covariance, b.style_covariance);
+  expect_same(trajectory_means, b.trajectory_means);
+  expect_same(trajectory_variances, b.trajectory_variances);
 }
 
 inline void expect_same(const Label& a, const Label& b) {
-  const auto& [name, successors, states, duration, deviation, shortest, longest] = a;
+  const auto& [name, successors, states, duration, deviation, shortest, longest, style_durations] =
+      a;
   expect_same(name, b.name);
   expect_same(successors, b.successors);
   expect_same(states, b.states);
@@ -83,6 +87,7 @@ inline void expect_same(const Label& a, const Label& b) {
   expect_same(deviation, b.duration_deviation);
   expect_same(shortest, b.shortest);
   expect_same(longest, b.longest);
+  expect_same(style_durations, b.style_durations);
 }
 
 inline void expect_same(const Body& a, const Body& b) {
@@ -184,8 +189,8 @@ inline void expect_same(const SpeedSpace& a, const SpeedSpace& b) {
 
 inline void expect_same(const Model& a, const Model& b) {
   const auto& [name, frame_rate, inputs, outputs, input, output, input_scaling, output_scaling,
-               output_mean, labels, styles, body, style_space, speed_spaces, shared_speed_space,
-               play, training] = a;
+               output_mean, input_mean, labels, styles, body, style_space, speed_spaces,
+               shared_speed_space, play, training] = a;
   expect_same(name, b.name);
   expect_same(frame_rate, b.frame_rate);
   expect_same(inputs, b.inputs);
@@ -200,6 +205,7 @@ inline void expect_same(const Model& a, const Model& b) {
   expect_same(input_scaling, b.input_scaling);
   expect_same(output_scaling, b.output_scaling);
   expect_same(output_mean, b.output_mean);
+  expect_same(input_mean, b.input_mean);
   expect_same(labels, b.labels);
   expect_same(styles, b.styles);
   ASSERT_EQ(body.has_value(), b.body.has_value());

@@ -60,23 +60,6 @@ Eigen::MatrixXd raw_inputs(const Sequence& sequence, const InputLayout& layout) 
   return x;
 }
 
-Eigen::MatrixXd raw_outputs(const Sequence& sequence, const OutputLayout& layout) {
-  const int statics = layout.statics(), frames = static_cast<int>(sequence.outputs.cols());
-  Eigen::MatrixXd y = Eigen::MatrixXd::Zero(layout.size(), frames);
-  for (int frame = 0; frame < frames; ++frame)
-    for (int i = 0; i < statics; ++i) {
-      const auto at = [&](int offset) {
-        return sequence.outputs(layout.modelled[i], std::clamp(frame + offset, 0, frames - 1));
-      };
-      y(i, frame) = at(0);
-      for (int offset = -1; offset <= 1; ++offset) {
-        y(statics + i, frame) += first_difference[offset + 1] * at(offset);
-        y(2 * statics + i, frame) += second_difference[offset + 1] * at(offset);
-      }
-    }
-  return y;
-}
-
 // Differences that hardly vary would be blown up by their own deviation.
 Scaling scaling_of(const std::vector<Sequence>& observed, bool inputs) {
   const Moments moments = moments_of(observed, [&](const Sequence& s) -> const Eigen::MatrixXd& {
@@ -98,6 +81,23 @@ std::vector<Segment> cut(const std::vector<Segment>& segments, int first, int la
 
 }  // namespace
 
+Eigen::MatrixXd with_differences(const Eigen::MatrixXd& values, const std::vector<int>& modelled) {
+  const int statics = static_cast<int>(modelled.size()), frames = static_cast<int>(values.cols());
+  Eigen::MatrixXd y = Eigen::MatrixXd::Zero(3 * statics, frames);
+  for (int frame = 0; frame < frames; ++frame)
+    for (int i = 0; i < statics; ++i) {
+      const auto at = [&](int offset) {
+        return values(modelled[i], std::clamp(frame + offset, 0, frames - 1));
+      };
+      y(i, frame) = at(0);
+      for (int offset = -1; offset <= 1; ++offset) {
+        y(statics + i, frame) += first_difference[offset + 1] * at(offset);
+        y(2 * statics + i, frame) += second_difference[offset + 1] * at(offset);
+      }
+    }
+  return y;
+}
+
 ObservationSet observe(const std::vector<Sequence>& sequences, const std::vector<int>& lags) {
   ObservationSet set;
   const Moments inputs =
@@ -109,6 +109,7 @@ ObservationSet observe(const std::vector<Sequence>& sequences, const std::vector
   set.input = {static_cast<int>(inputs.mean.size()), moving(inputs.deviation), lags};
   set.output = {static_cast<int>(outputs.mean.size()), moving(outputs.deviation)};
   set.output_mean = outputs.mean;
+  set.input_mean = inputs.mean;
   if (set.input.modelled.empty())
     throw Error("expected input streams that move; none of " + std::to_string(set.input.values) +
                 " values deviates by " + std::to_string(least_deviation) + " or more");
@@ -123,7 +124,7 @@ ObservationSet observe(const std::vector<Sequence>& sequences, const std::vector
         sequence.name, {}, {}, cut(sequence.segments, history, frames - 1), sequence.style};
     if (observed.segments.empty()) continue;
     observed.inputs = raw_inputs(sequence, set.input);
-    observed.outputs = raw_outputs(sequence, set.output);
+    observed.outputs = with_differences(sequence.outputs, set.output.modelled);
     raw.push_back(std::move(observed));
     sources.push_back(static_cast<int>(i));
   }

@@ -13,12 +13,17 @@ struct ObservationSet {
   OutputLayout output;
   Scaling input_scaling, output_scaling;
   Eigen::VectorXd output_mean;  // per output value
+  Eigen::VectorXd input_mean;   // per input value
   std::vector<ObservedSequence> sequences;
 };
 
 // Values whose deviation over all used frames is below this are not modelled but copied (radians,
 // or the stream's unit).
 inline constexpr double least_deviation = 1e-3;
+
+// Of values by frames the modelled ones, then their centred first, then second differences; at the
+// ends the neighbour that is missing is the frame itself.
+Eigen::MatrixXd with_differences(const Eigen::MatrixXd& values, const std::vector<int>& modelled);
 
 // Lays observations out and scales them by mean and deviation over the frames between each
 // sequence's first and last segment. Differences reach `lags` frames back; frames that lack the

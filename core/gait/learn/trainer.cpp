@@ -4,6 +4,7 @@
 #include <cmath>
 
 #include "gait/error.h"
+#include "gait/learn/trajectory_statistics.h"
 
 namespace gait {
 
@@ -22,10 +23,18 @@ void set_durations(Model& model, const ObservationSet& observed) {
   for (std::size_t i = 0; i < model.labels.size(); ++i) {
     Label& label = model.labels[i];
     std::vector<double> lengths;
+    const auto styles = static_cast<Eigen::Index>(model.styles.size());
+    label.style_durations = Eigen::VectorXd::Zero(styles);
+    Eigen::VectorXd counts = Eigen::VectorXd::Zero(styles);
     for (const ObservedSequence& sequence : observed.sequences)
       for (const Segment& segment : sequence.segments)
-        if (segment.label == static_cast<int>(i))
+        if (segment.label == static_cast<int>(i)) {
           lengths.push_back((segment.end - segment.begin) / model.frame_rate);
+          if (sequence.style < 0) continue;
+          label.style_durations[sequence.style] += lengths.back();
+          counts[sequence.style] += 1;
+        }
+    label.style_durations.array() /= counts.array().max(1);
     if (lengths.empty())
       throw Error("expected takes of every label; '" + label.name + "' has none");
     const Eigen::Map<Eigen::VectorXd> all(lengths.data(), static_cast<int>(lengths.size()));
@@ -44,7 +53,7 @@ void set_states(Model& model, const StateTable& table,
   const int inputs = model.input.size();
   for (std::size_t i = 0; i < model.labels.size(); ++i) {
     Label& label = model.labels[i];
-    label.states.assign(table.states[i], {});
+    label.states.resize(table.states[i]);  // what was learnt of trajectories stays
     for (int k = 0; k < table.states[i]; ++k) {
       const int index = table.first_state[i] + k;
       const StateStatistics& counted = statistics[index];
@@ -85,14 +94,16 @@ Learnt learn(const LearningTask& task, const LearningOptions& options) {
   model.input_scaling = learnt.observed.input_scaling;
   model.output_scaling = learnt.observed.output_scaling;
   model.output_mean = learnt.observed.output_mean;
+  model.input_mean = learnt.observed.input_mean;
   for (const LabelPlan& plan : task.labels)
-    model.labels.push_back({plan.name, plan.successors, {}, 0, 0, 0, 0});
+    model.labels.push_back({plan.name, plan.successors, {}, 0, 0, 0, 0, {}});
   set_durations(model, learnt.observed);
 
   learnt.states = train_states(learnt.observed.sequences, learnt.table,
                                static_cast<int>(task.styles.size()), options.hmm);
   set_states(model, learnt.table, learnt.states.statistics, learnt.states.stay,
              learnt.states.target, options.hmm.regularisation);
+  set_trajectories(model, task.sequences, learnt.observed, learnt.table, learnt.states.alignments);
   model.training.regularisation = options.hmm.regularisation;
   model.training.log_likelihood = learnt.states.log_likelihood;
   model.training.penalised_log_likelihood = learnt.states.penalised_log_likelihood;

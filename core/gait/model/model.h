@@ -41,6 +41,11 @@ struct State {
   double weight = 0;                 // how many frames it was learnt from
   Eigen::MatrixXd style_means;       // z by styles: per-style means, scaled
   Eigen::MatrixXd style_covariance;  // of x within styles, shared by all styles
+  // What a walk without input follows (T14 §4.3), unscaled: the inputs' values that move, then the
+  // outputs'; after all of them their centred first, then second differences. Means per style (one
+  // column without styles), variances within styles. Empty in models of before there were any.
+  Eigen::MatrixXd trajectory_means;
+  Eigen::VectorXd trajectory_variances;
 };
 
 struct Label {
@@ -50,6 +55,8 @@ struct Label {
   double duration = 0;               // mean time from its begin to its end, seconds
   double duration_deviation = 0;     // seconds
   double shortest = 0, longest = 0;  // seconds, as seen in training
+  // Mean per style, seconds; 0 for a style that never had this label. Empty without styles.
+  Eigen::VectorXd style_durations{};
 };
 
 // The body behind rotation streams.
@@ -97,6 +104,7 @@ struct Model {
   OutputLayout output;
   Scaling input_scaling, output_scaling;
   Eigen::VectorXd output_mean;  // one per output value: what unmodelled ones are set to
+  Eigen::VectorXd input_mean;   // the same per input value; empty where trajectory_means are
   std::vector<Label> labels;
   std::vector<std::string> styles;
   std::optional<Body> body;
@@ -108,6 +116,8 @@ struct Model {
   PlayDefaults play;
   Training training;
 
+  // Values of a frame that move, inputs' then outputs': what trajectory_means speak of.
+  int trajectory_values() const { return input.statics() + output.statics(); }
   int states() const {
     int count = 0;
     for (const Label& label : labels) count += static_cast<int>(label.states.size());

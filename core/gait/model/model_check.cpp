@@ -14,6 +14,7 @@ namespace {
 
 // Playing works in float and sizes its buffers by these; all are far above what bodies need.
 constexpr double least_deviation_kept = 1e-9;
+constexpr double least_variance_kept = 1e-14;
 constexpr double longest_delay = 10;  // seconds of history, past, future, lag
 constexpr int most_values = 100'000;  // in a frame of all streams
 constexpr int most_states = 1000;     // over all labels
@@ -58,6 +59,17 @@ void check_scaling(const Scaling& scaling, int size, const std::string& field) {
     fail(field + ".deviation", "deviations above zero");
 }
 
+// All of a model's states have what walks without input need, or none: input_mean says which.
+void check_trajectory(const State& state, const Model& model, const std::string& field) {
+  const bool walks = model.input_mean.size() > 0;
+  const int entries = walks ? 3 * model.trajectory_values() : 0;
+  const auto columns = std::max<Eigen::Index>(1, static_cast<Eigen::Index>(model.styles.size()));
+  expect_values(state.trajectory_means, entries, walks ? columns : 0, field + ".trajectory_means");
+  expect_values(state.trajectory_variances, entries, 1, field + ".trajectory_variances");
+  if (walks && !(state.trajectory_variances.array() >= least_variance_kept).all())
+    fail(field + ".trajectory_variances", "variances above zero");
+}
+
 void check_state(const State& state, const Model& model, const std::string& field,
                  CovarianceCheck& covariances) {
   const int inputs = model.input.size(), all = inputs + model.output.size();
@@ -69,10 +81,19 @@ void check_state(const State& state, const Model& model, const std::string& fiel
   expect_values(state.style_covariance, style_inputs, style_inputs, field + ".style_covariance");
   covariances.expect(state.covariance, field + ".covariance");
   covariances.expect(state.style_covariance, field + ".style_covariance");
+  check_trajectory(state, model, field);
   if (!(state.stay > 0 && state.stay < 1))
     fail(field + ".stay", "a probability between 0 and 1, found " + std::to_string(state.stay));
   expect_seconds(state.duration, field + ".duration");
   expect_within(state.weight, 0, largest_number, field + ".weight");
+}
+
+void check_style_durations(const Label& label, const Model& model, const std::string& field) {
+  const bool walks = model.input_mean.size() > 0;
+  expect_values(label.style_durations, walks ? static_cast<Eigen::Index>(model.styles.size()) : 0,
+                1, field + ".style_durations");
+  for (const double seconds : label.style_durations)
+    expect_seconds(seconds, field + ".style_durations");
 }
 
 void check_labels(const Model& model) {
@@ -99,6 +120,7 @@ void check_labels(const Model& model) {
     if (label.states.empty()) fail(field + ".states", "at least one, found none");
     for (std::size_t k = 0; k < label.states.size(); ++k)
       check_state(label.states[k], model, item(field + ".states", k), covariances);
+    check_style_durations(label, model, field);
   }
 }
 
@@ -181,6 +203,8 @@ void check_model(const Model& model) {
   check_scaling(model.input_scaling, model.input.size(), "input_scaling");
   check_scaling(model.output_scaling, model.output.size(), "output_scaling");
   expect_values(model.output_mean, model.output.values, 1, "output_mean");
+  if (model.input_mean.size() > 0)
+    expect_values(model.input_mean, model.input.values, 1, "input_mean");
   expect_names(model.styles, "styles");
   check_labels(model);
   if (model.body) check_body(*model.body, model);

@@ -66,13 +66,18 @@ Scaling scaling(const ModelField& field) {
   return {field["mean"].vector(), field["deviation"].vector()};
 }
 
-State state(const ModelField& field, bool styles) {
+// `walks`: with what walks without input need.
+State state(const ModelField& field, bool styles, bool walks) {
   State state;
   state.mean = field["mean"].vector();
   state.covariance = field["covariance"].symmetric();
   state.stay = field["stay"].number();
   state.duration = field["duration"].number();
   state.weight = field["weight"].number();
+  if (walks) {
+    state.trajectory_means = field["trajectory_means"].matrix();
+    state.trajectory_variances = field["trajectory_variances"].vector();
+  }
   if (styles) {
     state.style_means = field["style_means"].matrix();
     state.style_covariance = field["style_covariance"].symmetric();
@@ -80,7 +85,7 @@ State state(const ModelField& field, bool styles) {
   return state;
 }
 
-Label label(const ModelField& field, bool styles) {
+Label label(const ModelField& field, bool styles, bool walks) {
   Label label;
   label.name = field["name"].text();
   label.successors = field["successors"].integers();
@@ -88,8 +93,9 @@ Label label(const ModelField& field, bool styles) {
   label.duration_deviation = field["duration_deviation"].number();
   label.shortest = field["shortest"].number();
   label.longest = field["longest"].number();
+  if (styles && walks) label.style_durations = field["style_durations"].vector();
   for (const ModelField& item : field["states"].items())
-    label.states.push_back(state(item, styles));
+    label.states.push_back(state(item, styles, walks));
   return label;
 }
 
@@ -164,9 +170,10 @@ Model model_of(const ModelField& document) {
   model.input_scaling = scaling(document["input_scaling"]);
   model.output_scaling = scaling(document["output_scaling"]);
   model.output_mean = document["output_mean"].vector();
+  if (const auto field = document.find("input_mean")) model.input_mean = field->vector();
   model.styles = document["styles"].texts();
   for (const ModelField& item : document["labels"].items())
-    model.labels.push_back(label(item, !model.styles.empty()));
+    model.labels.push_back(label(item, !model.styles.empty(), model.input_mean.size() > 0));
   if (const auto field = document.find("body")) model.body = body(*field);
   if (const auto field = document.find("style_space")) model.style_space = style_space(*field);
   if (const auto field = document.find("speed_spaces"))

@@ -42,12 +42,17 @@ Json node(const InputLayout& layout, double frame_rate) {
   return {{"values", layout.values}, {"modelled", layout.modelled}, {"history", history}};
 }
 
-Json node(const State& state, bool styles) {
+// `walks`: with what walks without input need.
+Json node(const State& state, bool styles, bool walks) {
   Json node_of_state = {{"mean", array_node(state.mean)},
                         {"covariance", symmetric_array_node(state.covariance)},
                         {"stay", state.stay},
                         {"duration", state.duration},
                         {"weight", state.weight}};
+  if (walks) {
+    node_of_state["trajectory_means"] = array_node(state.trajectory_means);
+    node_of_state["trajectory_variances"] = array_node(state.trajectory_variances);
+  }
   if (styles) {
     node_of_state["style_means"] = array_node(state.style_means);
     node_of_state["style_covariance"] = symmetric_array_node(state.style_covariance);
@@ -55,13 +60,16 @@ Json node(const State& state, bool styles) {
   return node_of_state;
 }
 
-Json node(const Label& label, bool styles) {
+Json node(const Label& label, bool styles, bool walks) {
   Json states = Json::array();
-  for (const State& state : label.states) states.push_back(node(state, styles));
-  return {{"name", label.name},         {"successors", label.successors},
-          {"duration", label.duration}, {"duration_deviation", label.duration_deviation},
-          {"shortest", label.shortest}, {"longest", label.longest},
-          {"states", std::move(states)}};
+  for (const State& state : label.states) states.push_back(node(state, styles, walks));
+  Json node_of_label = {
+      {"name", label.name},         {"successors", label.successors},
+      {"duration", label.duration}, {"duration_deviation", label.duration_deviation},
+      {"shortest", label.shortest}, {"longest", label.longest},
+      {"states", std::move(states)}};
+  if (styles && walks) node_of_label["style_durations"] = array_node(label.style_durations);
+  return node_of_label;
 }
 
 Json triple(const Eigen::Vector3d& point) { return {point.x(), point.y(), point.z()}; }
@@ -114,7 +122,8 @@ Json node(const Training& training) {
 
 Json node(const Model& model) {
   Json labels = Json::array();
-  for (const Label& label : model.labels) labels.push_back(node(label, !model.styles.empty()));
+  for (const Label& label : model.labels)
+    labels.push_back(node(label, !model.styles.empty(), model.input_mean.size() > 0));
   Json document = {
       {"format", model_file_format},
       {"version", model_file_version},
@@ -131,6 +140,7 @@ Json node(const Model& model) {
       {"labels", std::move(labels)},
       {"play", node(model.play)},
       {"training", node(model.training)}};
+  if (model.input_mean.size() > 0) document["input_mean"] = array_node(model.input_mean);
   if (model.body) document["body"] = node(*model.body);
   if (model.style_space) document["style_space"] = field_of(*model.style_space);
   for (const SpeedSpace& space : model.speed_spaces)
