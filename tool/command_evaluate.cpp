@@ -6,6 +6,7 @@
 #include "commands.h"
 #include "evaluation_report.h"
 #include "gait/corpus/demo_model.h"
+#include "gait/motion/rest_calibration.h"
 #include "interrupt.h"
 #include "play_options.h"
 #include "progress.h"
@@ -25,11 +26,13 @@ struct EvaluateOptions {
 Evaluation judge(const std::shared_ptr<const Model>& model, const EvaluateOptions& options) {
   const Interrupt interrupt;
   Progress progress("gait evaluate:");
-  const WalksRead read =
+  WalksRead read =
       read_walks(options.reading, "evaluate", [&](double share, const std::string& file) {
         interrupt.check();
         progress.show(0.3 * share, "reading " + file);
       });
+  if (options.reading.calibrate && model->body)
+    for (Walk& walk : read.walks) walk.clip = calibrated(walk.clip, model->body->skeleton);
   return evaluate(model, read.walks, options.settings, read.roles, [&](double share) {
     interrupt.check();
     progress.show(0.3 + 0.7 * share, "playing");

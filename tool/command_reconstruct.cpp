@@ -21,6 +21,7 @@ struct ReconstructOptions {
   std::string root = "feet";
   PlayerSettings settings;
   ClipReading reading;
+  bool calibrate = false;
 };
 
 void reconstruct(const ReconstructOptions& options) {
@@ -33,7 +34,7 @@ void reconstruct(const ReconstructOptions& options) {
   print_warnings("reconstruct", file.warnings);
   const ReconstructedFile result =
       reconstruct_file(model, file, said_of_frame(options.reading), options.settings,
-                       options.root == "feet" ? RootFrom::feet : RootFrom::file);
+                       options.root == "feet" ? RootFrom::feet : RootFrom::file, options.calibrate);
   print_warnings("reconstruct", result.warnings);
   write_bvh(result.file, output.part());
   if (table) write_decisions(result.walk, *model, table->part());
@@ -66,6 +67,9 @@ Command reconstruct_command(CLI::App& program) {
                   "cadence, style posteriors")
       ->type_name("FILE");
   add_play_options(*app, options->settings);
+  app->add_flag("--calibrate", options->calibrate,
+                "Accept bones that rest in other directions than the model's: turn their joints' "
+                "frames to match, and back again");
   add_unit_and_up(*app, options->reading);
   app->footer(
       "Only the model's input joints are looked at. Delays that --lag or --future ask for are "

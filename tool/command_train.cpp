@@ -14,6 +14,7 @@
 #include "gait/judge/walk_model.h"
 #include "gait/learn/parallel.h"
 #include "gait/model/model_file.h"
+#include "gait/motion/rest_calibration.h"
 #include "interrupt.h"
 #include "number_range.h"
 #include "output_file.h"
@@ -90,6 +91,9 @@ Trained learn_from(const TrainOptions& options, const Interrupt& interrupt) {
   });
   interrupt.check();
   progress.show(0.2, "finding steps");
+  if (options.reading.calibrate)
+    for (Walk& walk : trained.read.walks)
+      walk.clip = calibrated(walk.clip, trained.read.walks.front().clip.skeleton);
   trained.walks = walk_sequences(trained.read.walks, walk_options_of(options, trained.read.roles));
   interrupt.check();
 

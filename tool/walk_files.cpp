@@ -176,6 +176,9 @@ void add_walk_reading(CLI::App& command, WalkReading& reading) {
       ->type_name("FILE");
   command.add_flag("--no-labels", reading.no_labels,
                    "Find contacts in the motion even where a label file lies beside a clip");
+  command.add_flag("--calibrate", reading.calibrate,
+                   "Accept bones that rest in other directions than the model's, or the first "
+                   "clip's: turn their joints' frames to match");
   add_clip_reading(command, reading.clip);
 }
 

@@ -18,10 +18,11 @@ struct WalkReading {
   std::string pattern;             // --label
   std::string manifest;            // --manifest
   bool no_labels = false;          // --no-labels
+  bool calibrate = false;          // --calibrate
   ClipReading clip;
 };
 
-// Adds CLIPS_OR_DIRS, --label, --manifest, --no-labels and what reads a clip.
+// Adds CLIPS_OR_DIRS, --label, --manifest, --no-labels, --calibrate and what reads a clip.
 void add_walk_reading(CLI::App& command, WalkReading& reading);
 
 // How names are read, for the end of a --help.

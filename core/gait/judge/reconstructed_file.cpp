@@ -6,6 +6,7 @@
 #include "gait/model/fitted_model.h"
 #include "gait/motion/contacts.h"
 #include "gait/motion/kinematics.h"
+#include "gait/motion/rest_calibration.h"
 
 namespace gait {
 
@@ -46,9 +47,11 @@ JointRoles roles_in_file(const Body& body, const std::vector<int>& matched, int 
 class FileReconstruction {
  public:
   FileReconstruction(std::shared_ptr<const Model> model, const BvhFile& file,
-                     const BodyFrameOverride& said, RootFrom root)
+                     const BodyFrameOverride& said, RootFrom root, bool calibrate)
       : model_(std::move(model)), body_(body_of(*model_)), clip_(clip_from_bvh(file)), root_(root) {
-    matched_ = match_joints(body_, file.skeleton, file.name,
+    turns_.assign(clip_.skeleton.joints.size(), Eigen::Quaterniond::Identity());
+    if (calibrate) turn_rest();
+    matched_ = match_joints(body_, clip_.skeleton, file.name,
                             joined(body_.input_joints, body_.output_joints));
     roles_ = roles_in_file(body_, matched_, file.skeleton.size());
     for (const int joint : body_.input_joints) inputs_.push_back(matched_[joint]);
@@ -75,6 +78,28 @@ class FileReconstruction {
     if (!model.body)
       throw Error("model " + model.name + ": expected a model of a body; its streams are plain");
     return *model.body;
+  }
+
+  // From here on the clip is told by a rig that rests as the model's does; what is written is
+  // turned back. Joints above the hips only carry them: they stay as they are.
+  void turn_rest() {
+    Skeleton in_metres = clip_.skeleton;
+    double mine = 0, file = 0;
+    for (const Joint& joint : clip_.skeleton.joints)
+      if (const int match = body_.skeleton.find(joint.name); match >= 0 && joint.parent >= 0) {
+        mine += body_.skeleton.joints[match].offset.norm();
+        file += joint.offset.norm();
+      }
+    for (Joint& joint : in_metres.joints) {
+      joint.offset *= file > 0 ? mine / file : 1;
+      for (Eigen::Vector3d& tip : joint.tips) tip *= file > 0 ? mine / file : 1;
+    }
+    turns_ = rest_turns(in_metres, body_.skeleton);
+    const int hips = in_metres.find(body_.skeleton.joints[body_roles(body_).hips].name);
+    for (int at = hips < 0 ? -1 : in_metres.joints[hips].parent; at >= 0;
+         at = in_metres.joints[at].parent)
+      turns_[at].setIdentity();
+    clip_ = with_rest_turned(clip_, turns_);
   }
 
   bool above_hips(int joint) const {
@@ -130,7 +155,7 @@ class FileReconstruction {
                                         [&](int mine) { return matched_[mine] == joint; });
         auto values = result_.file.values.col(column++);
         if (output && (!position || joint != roles_.hips))
-          values.setConstant(position ? clip_.skeleton.joints[joint].offset[axis] : 0.0);
+          values.setConstant(position ? result_.file.skeleton.joints[joint].offset[axis] : 0.0);
         else if (hips_made_ && root_ == RootFrom::feet &&
                  (joint == roles_.hips || above_hips(joint)))
           values.setZero();
@@ -149,8 +174,15 @@ class FileReconstruction {
   void write(int frame, const std::vector<double>& heading) {
     for (const int joint : body_.output_joints)
       if (body_.roles[joint] != Role::hips && has_rotation(matched_[joint]))
-        set_rotation(result_.file, frame, matched_[joint], result_.walk.clip.pose(frame)[joint]);
+        set_rotation(result_.file, frame, matched_[joint],
+                     as_in_file(matched_[joint], result_.walk.clip.pose(frame)[joint]));
     if (hips_move()) write_hips(frame, heading[frame]);
+  }
+
+  Eigen::Quaterniond as_in_file(int joint, const Eigen::Quaterniond& rotation) const {
+    const int parent = clip_.skeleton.joints[joint].parent;
+    return rest_turned_back(rotation, turns_[joint],
+                            parent < 0 ? Eigen::Quaterniond::Identity() : turns_[parent]);
   }
 
   bool has_rotation(int joint) const {
@@ -195,7 +227,8 @@ class FileReconstruction {
     if (hips_made_) {
       const Eigen::Quaterniond in_world = root_rotation_in_file(
           about_vertical(heading) * result_.walk.clip.pose(frame)[hips], frame_);
-      set_rotation(result_.file, frame, roles_.hips, above.rotation.conjugate() * in_world);
+      set_rotation(result_.file, frame, roles_.hips,
+                   as_in_file(roles_.hips, above.rotation.conjugate() * in_world));
     }
     if (root_ != RootFrom::feet) return;
     const Eigen::Vector3d in_world =
@@ -227,7 +260,8 @@ class FileReconstruction {
 
   std::shared_ptr<const Model> model_;
   const Body& body_;
-  Clip clip_;  // in the file's frame
+  Clip clip_;                              // in the file's frame, told by the turned rig
+  std::vector<Eigen::Quaterniond> turns_;  // per joint of the file
   RootFrom root_;
   std::vector<int> matched_, inputs_;
   JointRoles roles_;  // indices into the file's joints
@@ -240,10 +274,10 @@ class FileReconstruction {
 
 ReconstructedFile reconstruct_file(std::shared_ptr<const Model> model, const BvhFile& file,
                                    const BodyFrameOverride& said, const PlayerSettings& settings,
-                                   RootFrom root) {
+                                   RootFrom root, bool calibrate) {
   if (file.values.rows() == 0)
     throw Error(file.name + ": expected frames to reconstruct, found none");
-  return FileReconstruction(std::move(model), file, said, root).run(settings);
+  return FileReconstruction(std::move(model), file, said, root, calibrate).run(settings);
 }
 
 }  // namespace gait

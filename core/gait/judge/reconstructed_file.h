@@ -27,11 +27,12 @@ struct ReconstructedFile {
 };
 
 // Values of input joints, and of joints the model does not know, stay as they are. Output joints
-// rest at their offsets where they have position channels. The root is moved only when the hips
+// rest at their offsets where they have position channels. `calibrate`: bones may rest in other
+// directions than the model's (motion/rest_calibration.h). The root is moved only when the hips
 // are among the outputs or the inputs. Throws Error naming the joints that the file lacks, whose
 // rest directions differ from the model's, or whose channels cannot take a rotation.
 ReconstructedFile reconstruct_file(std::shared_ptr<const Model> model, const BvhFile& file,
                                    const BodyFrameOverride& said, const PlayerSettings& settings,
-                                   RootFrom root);
+                                   RootFrom root, bool calibrate = false);
 
 }  // namespace gait

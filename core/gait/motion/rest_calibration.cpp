@@ -71,6 +71,10 @@ Clip with_rest_turned(const Clip& clip, std::span<const Eigen::Quaterniond> turn
   return turned;
 }
 
+Clip calibrated(const Clip& clip, const Skeleton& to) {
+  return with_rest_turned(clip, rest_turns(clip.skeleton, to));
+}
+
 Eigen::Quaterniond rest_turned_back(const Eigen::Quaterniond& rotation,
                                     const Eigen::Quaterniond& turn,
                                     const Eigen::Quaterniond& parent_turn) {

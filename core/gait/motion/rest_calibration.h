@@ -22,6 +22,9 @@ std::vector<Eigen::Quaterniond> rest_turns(const Skeleton& from, const Skeleton&
 // The clip as told by the turned rig: same positions of all joints in every frame.
 Clip with_rest_turned(const Clip& clip, std::span<const Eigen::Quaterniond> turns);
 
+// Both at once: the clip as a rig that rests as `to` does would tell it.
+Clip calibrated(const Clip& clip, const Skeleton& to);
+
 // A local rotation of the turned rig, as the rig it came from has it. `turns` of the joint and of
 // its parent (the identity for a root).
 Eigen::Quaterniond rest_turned_back(const Eigen::Quaterniond& rotation,
