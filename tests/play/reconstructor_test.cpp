@@ -73,6 +73,31 @@ TEST(Reconstructor, decides_alike_on_a_walk_sent_at_30_60_and_120_frames_a_secon
   }
 }
 
+TEST(Reconstructor, decides_alike_where_the_senders_frames_lie_between_the_models) {
+  const auto model = few_walks_model();
+  for (const char* style : {"proud", "drunk"}) {
+    Reconstructor at_own_rate(model);
+    const auto own =
+        stream(at_own_rate, input_poses(make_walk(plan_of(style, 9)).clip, *model->body), 30);
+    for (const int rate : {50, 72, 100}) {
+      Reconstructor reconstructor(model);
+      const auto other = stream(
+          reconstructor, input_poses(make_walk(plan_of(style, 9), rate).clip, *model->body), rate);
+      const std::size_t frames = std::min(own.size(), other.size());
+      ASSERT_GE(frames + 1, own.size());
+      int same_step = 0, same_state = 0;
+      for (std::size_t i = 0; i < frames; ++i) {
+        const bool step = own[i].decision.label == other[i].decision.label;
+        same_step += step;
+        same_state += step && own[i].decision.state == other[i].decision.state;
+      }
+      // Interpolated poses differ a little: a state may begin a frame earlier or later.
+      EXPECT_GE(same_step, 0.98 * static_cast<double>(frames)) << style << " at " << rate;
+      EXPECT_GE(same_state, 0.94 * static_cast<double>(frames)) << style << " at " << rate;
+    }
+  }
+}
+
 TEST(Reconstructor, sees_the_input_joints_and_nothing_else) {
   const auto model = few_walks_model();
   const CorpusWalk walk = make_walk(plan_of("sad", 9));
