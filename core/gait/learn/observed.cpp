@@ -61,11 +61,18 @@ Eigen::MatrixXd raw_inputs(const Sequence& sequence, const InputLayout& layout) 
 }
 
 // Differences that hardly vary would be blown up by their own deviation.
-Scaling scaling_of(const std::vector<Sequence>& observed, bool inputs) {
+// `statics`: how many leading entries are values, repeated as differences behind them. A value that
+// differs between clips but rests within each has no differences to scale by: some share of its own
+// deviation stands in.
+Scaling scaling_of(const std::vector<Sequence>& observed, bool inputs, int statics) {
   const Moments moments = moments_of(observed, [&](const Sequence& s) -> const Eigen::MatrixXd& {
     return inputs ? s.inputs : s.outputs;
   });
-  return {moments.mean, moments.deviation.cwiseMax(1e-6)};
+  constexpr double least_share = 0.01;
+  Eigen::VectorXd deviation = moments.deviation.cwiseMax(1e-6);
+  for (Eigen::Index i = statics; i < deviation.size(); ++i)
+    deviation[i] = std::max(deviation[i], least_share * deviation[i % statics]);
+  return {moments.mean, deviation};
 }
 
 // Segments cut to the frames whose observation is whole: [first, last).
@@ -129,8 +136,8 @@ ObservationSet observe(const std::vector<Sequence>& sequences, const std::vector
     sources.push_back(static_cast<int>(i));
   }
   if (raw.empty()) throw Error("expected sequences longer than their history; none is left");
-  set.input_scaling = scaling_of(raw, true);
-  set.output_scaling = scaling_of(raw, false);
+  set.input_scaling = scaling_of(raw, true, set.input.statics());
+  set.output_scaling = scaling_of(raw, false, set.output.statics());
   for (std::size_t i = 0; i < raw.size(); ++i) {
     const Sequence& sequence = raw[i];
     ObservedSequence observed{sequence.name, {}, {}, sequence.segments, sequence.style, sources[i]};

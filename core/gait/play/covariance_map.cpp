@@ -4,6 +4,12 @@
 
 namespace gait {
 
+namespace {
+
+constexpr float least_difference_variance = 1e-5f;  // as a share of the static's
+
+}  // namespace
+
 CovarianceMap::CovarianceMap(const Model& model, std::shared_ptr<const StateTables> tables)
     : tables_(std::move(tables)),
       layout_(model.input),
@@ -55,6 +61,11 @@ const OutputGaussian& CovarianceMap::map(std::span<const WeightedState> states,
   variance_.array() += (squares_.array() - mean_.array().square()).max(0.0f);
   mapped_.mean = scale_.cwiseProduct(mean_) + offset_;
   mapped_.variance = scale_.cwiseAbs2().cwiseProduct(variance_.cwiseMax(1e-6f));
+  // Differences surer than this against the statics would cost the trajectory's float its digits.
+  for (int part = 1; part < 3; ++part) {
+    auto variance = mapped_.variance.segment(part * statics, statics);
+    variance = variance.cwiseMax(least_difference_variance * mapped_.variance.head(statics));
+  }
   return mapped_;
 }
 
