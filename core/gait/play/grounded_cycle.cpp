@@ -13,7 +13,10 @@ namespace {
 
 // Steps of half the length lift the foot by more than half.
 constexpr double lift_power = 0.5;
-// The hips' height over the ground, as the standing soles say, is smoothed over so much of a cycle.
+// What a swinging foot keeps off the ground at least, metres: other bones than its own may have let
+// it sink in.
+constexpr double least_clearance = 0.008;
+// Where legs are too short the hips come down smoothly, within so much of a cycle.
 constexpr double height_window = 0.1;
 // Of thigh and shank: a knee bent by 5 degrees, as straight as it gets in walking.
 constexpr double longest_reach = 0.999;
@@ -38,11 +41,16 @@ double smooth_step(double from, double until, double x) {
   return share * share * (3 - 2 * share);
 }
 
-// How much a foot swings, 0 to 1, at this part of a cycle since its contact: in between it is on
-// the ground, whatever other bones than its own make of its angles.
+// How much a foot swings, 0 to 1, at this part of a cycle since its contact.
 double swing(double since_contact) {
   since_contact -= std::floor(since_contact);
   return smooth_step(0.57, 0.67, since_contact) * (1 - smooth_step(0.9, 1.0, since_contact));
+}
+
+// How much of the body it carries: the other foot the rest.
+double carries(double since_contact) {
+  since_contact -= std::floor(since_contact);
+  return smooth_step(0.0, 0.12, since_contact) * (1 - smooth_step(0.5, 0.62, since_contact));
 }
 
 void smooth_round(std::vector<double>& values) {
@@ -80,7 +88,9 @@ Eigen::MatrixXd GroundedCycle::with_stride(const Eigen::MatrixXd& walking,
   const double still_ground = (lowest(still, soles_[0]) + lowest(still, soles_[1])) / 2;
   std::vector<Placed> steps;
   for (int k = 0; k < frames; ++k) steps.push_back(placed(walking.col(k)));
-  const Ground ground = ground_under(steps);
+  // A whole stride stays as it was; in short ones what feet in stance are off the ground would make
+  // them slide.
+  const Ground ground = ground_under(steps, std::min(1.0, 2 * (1 - share)));
 
   // Where ankles and soles should be, and how much too long that is for the legs.
   const Leg* legs[] = {&roles_.right, &roles_.left};
@@ -101,9 +111,11 @@ Eigen::MatrixXd GroundedCycle::with_stride(const Eigen::MatrixXd& walking,
       const double sole = pose.places[foot].y() - lowest(pose, soles_[side]);
       Eigen::Vector3d ankle =
           still.places[foot] + share * (steps[k].places[foot] - still.places[foot]);
-      ankle.y() = ground_here + std::pow(share, lift_power) * ground.clearance[side][k] + sole;
+      const double since_contact = static_cast<double>(k) / frames - 0.5 * side;
+      const double power = 1 - (1 - lift_power) * swing(since_contact);
+      ankle.y() = ground_here + std::pow(share, power) * ground.clearance[side][k] + sole;
       ankles[side].push_back(ankle);
-      missing[k] = std::max(missing[k], too_far(pose, *legs[side], ankle));
+      missing[k] = std::max(missing[k], too_far(pose, steps[k], *legs[side], ankle));
     }
   }
   // The hips come down as far as the legs are too short: knees never snap straight.
@@ -123,45 +135,54 @@ Eigen::MatrixXd GroundedCycle::with_stride(const Eigen::MatrixXd& walking,
 }
 
 // How far an ankle has to rise towards the hips to be within reach.
-double GroundedCycle::too_far(const Placed& pose, const Leg& leg,
+double GroundedCycle::too_far(const Placed& pose, const Placed& step, const Leg& leg,
                               const Eigen::Vector3d& ankle) const {
-  const double longest = longest_reach * ((pose.places[leg.shank] - pose.places[leg.thigh]).norm() +
-                                          (pose.places[leg.foot] - pose.places[leg.shank]).norm());
+  const double straight = (pose.places[leg.shank] - pose.places[leg.thigh]).norm() +
+                          (pose.places[leg.foot] - pose.places[leg.shank]).norm();
+  const double captured = (step.places[leg.foot] - step.places[leg.thigh]).norm();
+  const double longest = std::max(longest_reach * straight, captured);
   const Eigen::Vector3d from_thigh = ankle - pose.places[leg.thigh];
   const double ahead = std::hypot(from_thigh.x(), from_thigh.z());
   const double lowest_ankle = -std::sqrt(std::max(0.0, longest * longest - ahead * ahead));
   return std::max(0.0, lowest_ankle - from_thigh.y());
 }
 
-GroundedCycle::Ground GroundedCycle::ground_under(const std::vector<Placed>& steps) const {
+GroundedCycle::Ground GroundedCycle::ground_under(const std::vector<Placed>& steps,
+                                                  double flattened) const {
   const int frames = static_cast<int>(steps.size());
   Ground ground;
   ground.height.resize(steps.size());
-  double stance_sum[2] = {}, stance_weight[2] = {};
+  for (int side = 0; side < 2; ++side)
+    for (const Placed& step : steps) ground.clearance[side].push_back(lowest(step, soles_[side]));
+  // One leg longer than another, where angles of one skeleton meet the bones of another, is no
+  // reason to limp.
+  double carried[2] = {}, weight[2] = {};
   for (int side = 0; side < 2; ++side)
     for (int k = 0; k < frames; ++k) {
-      const double low = lowest(steps[k], soles_[side]);
-      ground.clearance[side].push_back(low);
-      const double stands = 1 - swing(static_cast<double>(k) / frames - 0.5 * side);
-      stance_sum[side] += stands * low;
-      stance_weight[side] += stands;
+      const double carries_now = carries(static_cast<double>(k) / frames - 0.5 * side);
+      carried[side] += carries_now * ground.clearance[side][k];
+      weight[side] += carries_now;
     }
-  // One leg longer than the other, as in some captured skeletons, is no reason to limp.
-  const double uneven = stance_sum[1] / stance_weight[1] - stance_sum[0] / stance_weight[0];
+  const double uneven = carried[1] / weight[1] - carried[0] / weight[0];
+  const double taken = flattened * uneven;
   for (int k = 0; k < frames; ++k) {
-    ground.clearance[0][k] += uneven / 2;
-    ground.clearance[1][k] -= uneven / 2;
-    const double right = 1 - swing(static_cast<double>(k) / frames);
-    const double left = 1 - swing(static_cast<double>(k) / frames - 0.5);
-    ground.height[k] =
-        (right * ground.clearance[0][k] + left * ground.clearance[1][k]) / (right + left);
+    ground.clearance[0][k] += taken / 2;
+    ground.clearance[1][k] -= taken / 2;
   }
-  const std::vector<double> rough = ground.height;
-  smooth_round(ground.height);
+  for (int k = 0; k < frames; ++k) {
+    // Straight legs must bend a lot to give way a little, so the hips follow the foot that carries
+    // them, and only while weight passes from foot to foot do both legs give way.
+    const double right = carries(static_cast<double>(k) / frames);
+    ground.height[k] = right * ground.clearance[0][k] + (1 - right) * ground.clearance[1][k];
+  }
   for (int side = 0; side < 2; ++side)
-    for (int k = 0; k < frames; ++k)
-      ground.clearance[side][k] = swing(static_cast<double>(k) / frames - 0.5 * side) *
-                                  std::max(0.0, ground.clearance[side][k] - rough[k]);
+    for (int k = 0; k < frames; ++k) {
+      double& clearance = ground.clearance[side][k];
+      clearance -= ground.height[k];
+      const double swings = swing(static_cast<double>(k) / frames - 0.5 * side);
+      clearance *= 1 - flattened * (1 - swings);
+      if (swings > 0.5) clearance = std::max(clearance, (2 * swings - 1) * least_clearance);
+    }
   return ground;
 }
 
@@ -210,12 +231,16 @@ void GroundedCycle::reach(Placed& pose, const Leg& leg, const Eigen::Vector3d& a
   };
   const Eigen::Vector3d thigh = pose.places[leg.shank] - pose.places[leg.thigh];
   const Eigen::Vector3d shank = pose.places[leg.foot] - pose.places[leg.shank];
-  Eigen::Vector3d axis = thigh.cross(shank);
   const double lengths = thigh.norm() * shank.norm();
-  // A knee that is straight, or a little beyond, bends about the axis across the body.
-  if (axis.x() < 0.05 * lengths) axis = Eigen::Vector3d::UnitX();
-  axis.normalize();
-  const double bent = std::atan2(thigh.cross(shank).dot(axis), thigh.dot(shank));
+  Eigen::Vector3d axis = thigh.cross(shank);
+  double bent = std::atan2(axis.norm(), thigh.dot(shank));
+  // A knee that is bent the wrong way comes back; one that is straight bends about the axis across.
+  if (axis.norm() < 1e-4 * lengths) {
+    axis = Eigen::Vector3d::UnitX();
+  } else {
+    axis.normalize();
+    if (axis.x() < -0.5) axis = -axis, bent = -bent;
+  }
   const double wanted = (ankle - pose.places[leg.thigh]).squaredNorm();
   const double cosine = (wanted - thigh.squaredNorm() - shank.squaredNorm()) / (2 * lengths);
   const double bend = std::acos(std::clamp(cosine, -1.0, 1.0));

@@ -1,11 +1,10 @@
-// A captured cycle on the model's own legs, with any share of its stride: in stance each foot is on
-// the ground.
+// A captured cycle with any share of its stride.
 //
 // Joint angles half-way between a step and standing (G04 §4.1) do not make half a step: the
 // swinging foot no longer clears the ground, the standing one leaves it, and both slide (G04 §6).
-// Likewise angles of one subject on the bones of another, or lines carried on beyond the captured
-// speeds. Here the upper body is half-way, each foot travels half as far, its sole keeps its
-// distance to the ground, and hip and knee follow (two-bone inverse kinematics).
+// Here the upper body is half-way, each foot travels half as far, its sole keeps its distance to
+// the ground, and hip and knee follow (two-bone inverse kinematics). The whole stride is the cycle
+// as it is, save that a knee never bends the wrong way.
 //
 // Metres, radians; +Z ahead, Y up; poses with heading out; phase 0 at the right contact, 0.5 at the
 // left.
@@ -42,13 +41,15 @@ class GroundedCycle {
 
   struct Ground {                      // per frame, against the hips
     std::vector<double> height;        // of the ground
-    std::vector<double> clearance[2];  // of each sole over it; 0 in stance
+    std::vector<double> clearance[2];  // of each sole over it
   };
 
-  Ground ground_under(const std::vector<Placed>& steps) const;
+  // `flattened`: 0 to 1, how much of their distance to the ground feet in stance lose.
+  Ground ground_under(const std::vector<Placed>& steps, double flattened) const;
   Placed placed(const Eigen::VectorXd& values) const;
   void place(Placed& pose) const;
-  double too_far(const Placed& pose, const Leg& leg, const Eigen::Vector3d& ankle) const;
+  double too_far(const Placed& pose, const Placed& step, const Leg& leg,
+                 const Eigen::Vector3d& ankle) const;
   double lowest(const Placed& pose, const std::vector<SolePoint>& sole) const;
   void reach(Placed& pose, const Leg& leg, const Eigen::Vector3d& ankle,
              const Eigen::Quaterniond& foot) const;

@@ -18,7 +18,7 @@ struct SubjectCyclesOverSpeed {
   float leg_length = 0;            // the captured one, metres
   float slowest = 0, fastest = 0;  // captured
   float frequency_scale = 0, frequency_power = 0;
-  // Cycles as pose vectors, one column per frame, with the feet on the ground: standing, equal
+  // Cycles as pose vectors, one column per frame: standing, equal
   // shares of the stride up to that at the slowest captured speed, equal steps of V from there to
   // highest_speed_per_leg on the subject's lines.
   std::vector<Eigen::MatrixXf> cycles;
