@@ -38,7 +38,7 @@ TEST(Evaluation, each_stage_adds_something) {
   for (const EvaluatedClip& clip : all.clips) {
     EXPECT_LT(clip.jerk_synthesised, clip.jerk_mapped) << clip.name;
     EXPECT_GT(clip.jerk_truth, 0);
-    EXPECT_NEAR(clip.path_ratio, 1, 0.15) << clip.name;
+    EXPECT_NEAR(clip.path_synthesised / clip.path_captured, 1, 0.15) << clip.name;
     EXPECT_GE(clip.slide_captured, 0);
     EXPECT_GT(clip.slide_synthesised, 0);
   }
