@@ -11,11 +11,28 @@ namespace gait {
 namespace {
 
 // The direction in which a joint's bone leaves its parent; nothing for joints that sit on it.
-bool rest_directions_differ(const Eigen::Vector3d& a, const Eigen::Vector3d& b) {
+bool rest_directions_differ(const Eigen::Vector3d& a, const Eigen::Vector3d& b, double limit) {
   const double shortest = 0.01;  // metres; shorter bones have no direction to speak of
   if (a.norm() < shortest || b.norm() < shortest) return false;
-  return std::acos(std::clamp(a.normalized().dot(b.normalized()), -1.0, 1.0)) >
-         rest_direction_limit;
+  return std::acos(std::clamp(a.normalized().dot(b.normalized()), -1.0, 1.0)) > limit;
+}
+
+// The bone that ends in such a joint is part of a person's shape.
+double rest_limit(Role role) {
+  switch (role) {
+    case Role::spine:
+    case Role::neck:
+    case Role::head:
+    case Role::left_shoulder:
+    case Role::right_shoulder:
+    case Role::left_arm:
+    case Role::right_arm:
+    case Role::left_thigh:
+    case Role::right_thigh:
+      return shape_direction_limit;
+    default:
+      return rest_direction_limit;
+  }
 }
 
 std::string listed(const std::vector<std::string>& names) {
@@ -40,14 +57,15 @@ std::vector<int> match_joints(const Body& body, const Skeleton& skeleton, const 
     if (matched[joint] < 0)
       missing.push_back(mine.name);
     else if (mine.parent >= 0 && body.roles[joint] != Role::hips &&
-             rest_directions_differ(mine.offset, skeleton.joints[matched[joint]].offset))
+             rest_directions_differ(mine.offset, skeleton.joints[matched[joint]].offset,
+                                    rest_limit(body.roles[joint])))
       turned.push_back(mine.name);
   }
   if (!missing.empty())
     throw Error(clip + ": expected the model's joints; missing: " + listed(missing));
   if (!turned.empty())
-    throw Error(clip + ": expected bones that rest as the model's do, within 10 degrees; these " +
-                "differ: " + listed(turned));
+    throw Error(clip + ": expected bones that rest as the model's do (limbs within 10 " +
+                "degrees, trunk and head within 35); these differ: " + listed(turned));
   return matched;
 }
 

@@ -11,8 +11,11 @@
 namespace gait {
 
 // Largest angle between a clip's and a body's rest direction of a bone (radians) that still counts
-// as the same rig.
+// as the same rig: 10 degrees for the bones of arms and legs, whose rest tells how the rig's frames
+// lie. From trunk to head, to the arms and to the thighs it is 35: there the rest is a person's
+// shape, and between two subjects of one rig (CMU's) up to 28 degrees differ.
 inline constexpr double rest_direction_limit = 0.17453;
+inline constexpr double shape_direction_limit = 0.61087;
 
 // For each joint of the body the index of the clip's joint of that name. Throws Error naming the
 // joints that `skeleton` lacks, or whose rest directions differ by more than the limit. `needed`
