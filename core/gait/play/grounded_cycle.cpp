@@ -47,6 +47,12 @@ double swing(double since_contact) {
   return smooth_step(0.57, 0.67, since_contact) * (1 - smooth_step(0.9, 1.0, since_contact));
 }
 
+// In the middle of the swing, when toes that push off have long left the ground.
+double rise(double since_contact) {
+  since_contact -= std::floor(since_contact);
+  return smooth_step(0.6, 0.76, since_contact) * (1 - smooth_step(0.84, 0.98, since_contact));
+}
+
 // How much of the body it carries: the other foot the rest.
 double carries(double since_contact) {
   since_contact -= std::floor(since_contact);
@@ -181,7 +187,8 @@ GroundedCycle::Ground GroundedCycle::ground_under(const std::vector<Placed>& ste
       clearance -= ground.height[k];
       const double swings = swing(static_cast<double>(k) / frames - 0.5 * side);
       clearance *= 1 - flattened * (1 - swings);
-      if (swings > 0.5) clearance = std::max(clearance, (2 * swings - 1) * least_clearance);
+      clearance += rise(static_cast<double>(k) / frames - 0.5 * side) *
+                   std::max(0.0, least_clearance - clearance);
     }
   return ground;
 }
