@@ -1,5 +1,4 @@
 // gait corpus: the built-in walks as files.
-#include <charconv>
 #include <cstdint>
 #include <cstdio>
 #include <filesystem>
@@ -8,6 +7,7 @@
 #include <nlohmann/json.hpp>
 #include <string>
 #include <system_error>
+#include <utility>
 #include <vector>
 
 #include "commands.h"
@@ -15,6 +15,7 @@
 #include "gait/error.h"
 #include "gait/motion/bvh.h"
 #include "gait/motion/label_file.h"
+#include "number_words.h"
 #include "progress.h"
 
 namespace gait::tool {
@@ -24,23 +25,13 @@ namespace {
 struct CorpusOptions {
   std::string folder;
   std::uint64_t seed = 1;
-  bool json = false;
+  bool speeds = false, json = false;
 };
 
 struct StyleCount {
   int clips = 0, cycles = 0;
   double seconds = 0;
 };
-
-// CLI11 would read "-3" as a very large number.
-std::string seed_fault(const std::string& seed) {
-  std::uint64_t number = 0;
-  const char* end = seed.data() + seed.size();
-  const auto [stop, error] = std::from_chars(seed.data(), end, number);
-  return error == std::errc() && stop == end
-             ? ""
-             : "expected a whole number from 0 to 2^64 - 1, found '" + seed + "'";
-}
 
 void write_walk(const CorpusWalk& walk, const std::filesystem::path& folder) {
   const std::filesystem::path bvh = folder / corpus_file_name(walk);
@@ -56,15 +47,18 @@ void corpus(const CorpusOptions& options) {
   if (failure)
     throw Error(options.folder + ": expected a folder to write to: " + failure.message());
 
-  const std::vector<CorpusWalk> walks = make_corpus(options.seed);
+  std::vector<CorpusWalk> walks = make_corpus(options.seed);
+  if (options.speeds)
+    for (CorpusWalk& walk : make_speed_walks(options.seed)) walks.push_back(std::move(walk));
   std::map<std::string, StyleCount> styles;
   std::vector<std::string> order;
   {
     Progress progress("gait corpus: writing walks");
     for (std::size_t i = 0; i < walks.size(); ++i) {
       write_walk(walks[i], folder);
-      if (!styles.contains(walks[i].style)) order.push_back(walks[i].style);
-      StyleCount& style = styles[walks[i].style];
+      const std::string& name = walks[i].style.empty() ? walks[i].subject : walks[i].style;
+      if (!styles.contains(name)) order.push_back(name);
+      StyleCount& style = styles[name];
       ++style.clips;
       style.cycles += static_cast<int>(cycles_between(walks[i].contacts).size());
       style.seconds += walks[i].clip.frames() / walks[i].clip.frame_rate;
@@ -104,14 +98,17 @@ Command corpus_command(CLI::App& program) {
       ->default_str("")
       ->type_name("");
   app->add_option("--seed", options->seed, "The same seed gives the same walks")
-      ->check(CLI::Validator(seed_fault, ""))
+      ->check(seed_check())
       ->type_name("N");
+  app->add_flag("--speeds", options->speeds,
+                "Write the neutral walk at 0.6 to 2.0 m/s as well: walk_neutral_SPEED.bvh");
   app->add_flag("--json", options->json, "Report as JSON");
   app->footer(
       "Each walk_STYLE_TAKE.bvh comes with walk_STYLE_TAKE.txt, its exact contacts in Audacity's\n"
       "label form.\n\n"
       "Examples:\n"
       "  gait corpus walks\n"
+      "  gait corpus walks --speeds\n"
       "  gait render walks/walk_*_1.bvh -o styles.png");
   return {app, [options] { corpus(*options); }};
 }

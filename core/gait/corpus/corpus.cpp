@@ -52,8 +52,6 @@ std::vector<CorpusWalk> make_corpus(std::uint64_t seed, double frame_rate) {
   return corpus;
 }
 
-std::string corpus_file_name(const CorpusWalk& walk) {
-  return "walk_" + walk.style + "_" + std::to_string(walk.take) + ".bvh";
-}
+std::string corpus_file_name(const CorpusWalk& walk) { return walk.clip.name + ".bvh"; }
 
 }  // namespace gait

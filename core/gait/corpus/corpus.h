@@ -28,7 +28,9 @@ struct CorpusWalk {
   std::vector<Contact> contacts;  // first frame at or after the moment the foot meets the ground
   std::vector<double> phase;  // per frame, 0..1: 0 at right contact, 0.5 at left, linear between
   std::string style;
-  int take = 1;  // from 1
+  int take = 1;         // from 1
+  std::string subject;  // of walks over speed
+  double speed = 0;     // m/s; 0: not told
 };
 
 // The walk of a plan at any frame rate: the same motion, sampled from the same first moment.
@@ -37,6 +39,10 @@ CorpusWalk make_walk(const WalkPlan& plan, double frame_rate = 30);
 // All walks of the corpus, style by style in corpus_styles' order, take by take. The same seed
 // gives the same walks, another seed another actor's day.
 std::vector<CorpusWalk> make_corpus(std::uint64_t seed = 1, double frame_rate = 30);
+
+// The neutral walk at 0.6, 0.8, ... 2.0 m/s, names walk_neutral_SPEED: one subject over speed (G04
+// §2), of no style. Not part of the corpus of styles.
+std::vector<CorpusWalk> make_speed_walks(std::uint64_t seed = 1, double frame_rate = 30);
 
 // How many cycles each take of a style has: passages of four to six, together `cycles`.
 std::vector<int> cycles_of_takes(int cycles);
