@@ -105,6 +105,7 @@ bool StepWalker::set_style(int style) noexcept {
 
 void StepWalker::reset() noexcept {
   started_ = false;
+  pace_ = 1;
   queue_.clear();
   durations_.set_tempo(1);
   ahead_ = {};
@@ -131,6 +132,7 @@ void StepWalker::begin() noexcept {
 
 void StepWalker::enter(const StepPlace& place, std::span<const float> weights) noexcept {
   started_ = true;
+  pace_ = 1;
   if (weights.size() == tables_->can_walk.size() && !model_->styles.empty()) {
     for (std::size_t i = 0; i < weights.size(); ++i)
       mixed_[static_cast<Eigen::Index>(i)] = tables_->can_walk[i] ? weights[i] : 0.0f;
@@ -203,7 +205,7 @@ StepWalker::Place StepWalker::back(Place place, float seconds) const noexcept {
 
 // One frame on.
 void StepWalker::move() noexcept {
-  float seconds = period_;
+  float seconds = pace_ * period_;
   while (true) {
     const float duration = durations_.of(ahead_.label);
     const float left = (1 - ahead_.progress) * duration;
@@ -229,8 +231,9 @@ void StepWalker::push(const Place& place) noexcept {
   const auto last = static_cast<std::size_t>(tables_->first_state[place.label + 1]) - 1;
   const float duration = durations_.of(place.label);
   // A state's mean is that of frames that begin within it: half a frame before its centre.
-  const float at = place.standing ? place.progress : place.progress + 0.5f * period_ / duration;
-  rates_ = tables_->durations.row(place.label).transpose() / duration;
+  const float at =
+      place.standing ? place.progress : place.progress + 0.5f * pace_ * period_ / duration;
+  rates_ = tables_->durations.row(place.label).transpose() * (pace_ / duration);
   if (place.standing) rates_.setZero();
 
   std::size_t a = first, b = first;
@@ -299,7 +302,7 @@ void StepWalker::advance() noexcept {
 
 void StepWalker::show() noexcept {
   const auto path = trajectory_.generate();
-  means_ = tables_->mean;
+  values_ = means_ = tables_->mean;
   for (std::size_t i = 0; i < tables_->modelled.size(); ++i) {
     const auto at = static_cast<Eigen::Index>(i);
     values_[tables_->modelled[i]] = path(at, 0);
@@ -329,13 +332,25 @@ int StepWalker::state() const noexcept {
   return state - first;
 }
 
-float StepWalker::phase() const noexcept {
-  const float phase = phase_begin_[shown().label] + progress() * phase_span_[shown().label];
+void StepWalker::set_pace(float pace) noexcept {
+  if (std::isfinite(pace)) pace_ = std::clamp(pace, 0.1f, 4.0f);
+}
+
+float StepWalker::behind(float phase, float cadence) const noexcept {
+  const float ahead =
+      cadence * phase_span_[ahead_.label] * period_ * static_cast<float>(places_.size() - 1);
+  float cycles = phase + ahead - phase_of(ahead_);
+  cycles -= std::floor(cycles);
+  return cycles > 0.4f ? cycles - 1 : cycles;
+}
+
+float StepWalker::phase_of(const Place& place) const noexcept {
+  const float phase = phase_begin_[place.label] + place.progress * phase_span_[place.label];
   return phase < 1 ? phase : phase - 1;
 }
 
 float StepWalker::cadence() const noexcept {
-  return shown().standing ? 0.0f : 1 / durations_.of(shown().label);
+  return shown().standing ? 0.0f : pace_ / durations_.of(shown().label);
 }
 
 bool StepWalker::take_over(const StepWalker& other) noexcept {
@@ -345,6 +360,7 @@ bool StepWalker::take_over(const StepWalker& other) noexcept {
   mix_ = other.mix_;
   controls_.take_over(other.controls_);
   started_ = other.started_;
+  pace_ = other.pace_;
   values_ = other.values_, pose_ = other.pose_;
   entered_ = other.entered_;
   if (!started_) return true;

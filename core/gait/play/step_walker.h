@@ -74,6 +74,12 @@ class StepWalker {
 
   // Makes the next frame, 1 / model.frame_rate later.
   void advance() noexcept;
+  // Walks faster or slower from here on without being told otherwise by the controls, 0.1 to 4:
+  // to fall in step with somebody.
+  void set_pace(float pace) noexcept;
+  // How many cycles it is behind somebody at this phase and cadence (labels per second), as it will
+  // be when what is decided now is shown; -0.6 to 0.4, as it is easier to wait than to hurry.
+  float behind(float phase, float cadence) const noexcept;
   // Goes on from here: the frame that was last shown is at this place. Styles and cadence are at
   // once as given, styles without a walk left out. Stream controls and the queue stay.
   void enter(const StepPlace& place, std::span<const float> weights) noexcept;
@@ -94,7 +100,7 @@ class StepWalker {
   int label() const noexcept { return shown().label; }  // -1 before the first frame
   int state() const noexcept;                           // within the label
   float progress() const noexcept { return shown().progress; }
-  float phase() const noexcept;    // through the cycle of labels, 0..1
+  float phase() const noexcept { return phase_of(shown()); }  // through the cycle of labels, 0..1
   float cadence() const noexcept;  // labels per second; 0 while it stands
   // The label that began with this frame: of a walk, which foot touched.
   std::optional<int> entered() const noexcept { return entered_; }
@@ -119,6 +125,7 @@ class StepWalker {
   void push(const Place& place) noexcept;
   void add_state(int state, float share) noexcept;
   void show() noexcept;
+  float phase_of(const Place& place) const noexcept;
   const Place& shown() const noexcept { return places_[static_cast<std::size_t>(newest_)]; }
 
   std::shared_ptr<const Model> model_;
@@ -132,6 +139,7 @@ class StepWalker {
   int past_;
 
   bool started_ = false;
+  float pace_ = 1;
   Place ahead_;                // the newest in the queue of states
   std::vector<Place> places_;  // ring: from the one shown to the one ahead
   int newest_ = 0;
