@@ -1,0 +1,54 @@
+// What a frame of the step walker costs, and of a walk that has lost its input.
+#include <benchmark/benchmark.h>
+
+#include <algorithm>
+#include <chrono>
+
+#include "bench_model.h"
+#include "gait/play/continuation.h"
+#include "gait/play/step_walker.h"
+
+namespace gait::bench {
+namespace {
+
+// Median and 99th percentile of single frames, microseconds.
+template <typename Frame>
+void frames(benchmark::State& state, Frame frame) {
+  std::vector<double> times;
+  times.reserve(1 << 22);
+  for (auto _ : state) {
+    const auto start = std::chrono::steady_clock::now();
+    frame();
+    const std::chrono::duration<double, std::micro> took = std::chrono::steady_clock::now() - start;
+    times.push_back(took.count());
+  }
+  std::sort(times.begin(), times.end());
+  const auto at = [&](double share) {
+    return times[static_cast<std::size_t>(share * static_cast<double>(times.size() - 1))];
+  };
+  state.counters["p50_us"] = at(0.5);
+  state.counters["p99_us"] = at(0.99);
+}
+
+void step_walker(benchmark::State& state) {
+  StepWalker walker(bench_model(8));
+  walker.set_style(1);
+  frames(state, [&] {
+    walker.advance();
+    benchmark::DoNotOptimize(walker.pose().data());
+  });
+}
+
+void walking_alone(benchmark::State& state) {
+  Continuation continuation(bench_model(8));
+  frames(state, [&] {
+    continuation.go_on();
+    benchmark::DoNotOptimize(continuation.frame().hips);
+  });
+}
+
+BENCHMARK(step_walker);
+BENCHMARK(walking_alone);
+
+}  // namespace
+}  // namespace gait::bench
