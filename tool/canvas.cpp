@@ -76,6 +76,19 @@ void Canvas::line(double x0, double y0, double x1, double y1, double width, Colo
   cairo_stroke(context_.get());
 }
 
+void Canvas::lines(std::span<const Spot> points, double width, Colour stroke,
+                   std::span<const double> dashes) {
+  if (points.empty()) return;
+  colour(stroke);
+  cairo_set_line_cap(context_.get(), CAIRO_LINE_CAP_BUTT);
+  cairo_set_line_width(context_.get(), width);
+  cairo_set_dash(context_.get(), dashes.data(), static_cast<int>(dashes.size()), 0);
+  cairo_new_path(context_.get());
+  for (const Spot& point : points) cairo_line_to(context_.get(), point.x, point.y);
+  cairo_stroke(context_.get());
+  cairo_set_dash(context_.get(), nullptr, 0, 0);
+}
+
 void Canvas::disc(double x, double y, double radius, Colour fill) {
   colour(fill);
   cairo_new_sub_path(context_.get());

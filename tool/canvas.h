@@ -5,9 +5,14 @@
 
 #include <filesystem>
 #include <memory>
+#include <span>
 #include <string>
 
 namespace gait::tool {
+
+struct Spot {
+  double x = 0, y = 0;
+};
 
 struct Colour {
   double red = 0, green = 0, blue = 0;  // 0 to 1
@@ -35,6 +40,9 @@ class Canvas {
   void clear();
   void line(double x0, double y0, double x1, double y1, double width, Colour colour,
             Ends ends = Ends::round);
+  // Through all points. `dashes`: lengths drawn and left out in turn; none: unbroken.
+  void lines(std::span<const Spot> points, double width, Colour colour,
+             std::span<const double> dashes = {});
   void disc(double x, double y, double radius, Colour colour);
   // A triangle that points up, its tip at (x, y).
   void mark(double x, double y, double size, Colour colour);

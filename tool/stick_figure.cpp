@@ -33,9 +33,6 @@ double thickness(const WalkView& view, double scale, Tone tone) {
 double rim(double thick) { return std::clamp(0.35 * thick, 0.8, 3.0); }
 
 // Where a point lands on the page.
-struct Spot {
-  double x, y;
-};
 Spot spot(const WalkView& view, int frame, int point, const Placement& place) {
   // Feet are lines with a thickness: they stand on the ground, not in it.
   const double thick = thickness(view, place.pixels_per_metre, Tone::coloured);
