@@ -11,6 +11,7 @@
 #include "gait/corpus/demo_model.h"
 #include "gait/model/model_words.h"
 #include "play_options.h"
+#include "space_report.h"
 
 namespace gait::tool {
 
@@ -136,6 +137,7 @@ void print_text(const Model& model) {
   print_row("styles", model.styles.empty() ? "none" : joined(model.styles));
   std::printf("\nPlayed, unless told otherwise:\n");
   print_play(model.play);
+  print_spaces(model);
   std::printf("\n");
   print_training(model.training);
 }
@@ -207,6 +209,7 @@ void print_json(const Model& model) {
         {"strength", play.strength},
         {"style_memory", play.style_memory},
         {"style_temper", play.style_temper}}},
+      {"spaces", spaces_as_json(model)},
       {"training", as_json(model.training)}};
   std::puts(report.dump(2, ' ', false, nlohmann::json::error_handler_t::replace).c_str());
 }
