@@ -13,9 +13,12 @@
 #include "commands.h"
 #include "film.h"
 #include "film_strip.h"
+#include "gait/corpus/demo_model.h"
 #include "gait/error.h"
 #include "output_file.h"
 #include "progress.h"
+#include "speed_grid.h"
+#include "speed_words.h"
 #include "walk_view.h"
 
 namespace gait::tool {
@@ -28,6 +31,7 @@ struct RenderOptions {
   int strobe = 0;
   std::string compare;
   std::string view = "side";
+  std::string speeds, legs;
   ClipReading reading;
 };
 
@@ -80,6 +84,20 @@ void draw_strip(const std::vector<WalkView>& views, const WalkView* compared, in
   output.keep();
 }
 
+// What a model's speed walker walks, instead of clips.
+void render_speeds(const RenderOptions& options, const std::string& ending) {
+  if (options.speeds.empty() || options.clips.size() != 1)
+    throw UsageError("--speeds and --legs go together with one model in place of the clips");
+  if (ending == ".mp4" || options.strobe > 0 || !options.compare.empty())
+    throw UsageError("--speeds gives a picture (.png, .svg) without --strobe or --compare");
+  SpeedGrid grid;
+  grid.speeds = speeds_said(options.speeds, ',', "--speeds");
+  if (!options.legs.empty()) grid.leg_lengths = lengths_said(options.legs, "--legs");
+  grid.camera_degrees = camera_degrees(options.view);
+  const auto model = std::make_shared<const Model>(model_named(options.clips.front()));
+  write_speed_grid(model, grid, options.output, ending == ".svg");
+}
+
 void render(const RenderOptions& options) {
   const std::string ending = ending_of(options.output);
   if (ending != ".png" && ending != ".svg" && ending != ".mp4")
@@ -87,6 +105,11 @@ void render(const RenderOptions& options) {
   if (!options.compare.empty() && options.clips.size() != 1)
     throw UsageError("--compare goes with one clip, " + std::to_string(options.clips.size()) +
                      " were given");
+
+  if (!options.speeds.empty() || !options.legs.empty()) {
+    render_speeds(options, ending);
+    return;
+  }
 
   std::vector<WalkView> views;
   for (const std::string& clip : options.clips) views.push_back(view_clip(clip, options));
@@ -108,7 +131,7 @@ Command render_command(CLI::App& program) {
   const auto options = std::make_shared<RenderOptions>();
   CLI::App* app =
       program.add_subcommand("render", "Draw clips as a film strip of stick figures, or as a film");
-  app->add_option("CLIP", options->clips, "BVH files, one row each")
+  app->add_option("CLIP", options->clips, "BVH files, one row each; with --speeds a model")
       ->required()
       ->default_str("")
       ->type_name("");
@@ -128,6 +151,12 @@ Command render_command(CLI::App& program) {
                   "Camera: side, front, or degrees around the walker (0 front, 90 right side)")
       ->check(CLI::Validator(view_fault, ""))
       ->type_name("VIEW");
+  app->add_option("--speeds", options->speeds,
+                  "Draw a model's walk at these speeds instead: m/s, or 2,4,6,8,10km/h")
+      ->type_name("V,V,..");
+  app->add_option("--legs", options->legs,
+                  "With --speeds: a row for each length of thigh and shank, in metres")
+      ->type_name("M,M,..");
   add_clip_reading(*app, options->reading);
   app->footer(
       "A walk's figures stand where they were. One that stays on the spot is spread by time.\n\n"
@@ -135,6 +164,7 @@ Command render_command(CLI::App& program) {
       "  gait render walk.bvh -o walk.png\n"
       "  gait render proud.bvh sad.bvh drunk.bvh -o styles.svg --strobe 9\n"
       "  gait render captured.bvh --compare reconstructed.bvh -o both.png\n"
+      "  gait render speeds.gait --speeds 2,4,6,8,10km/h --legs 0.7,0.83,0.95 -o speeds.png\n"
       "  gait render walk.bvh --view 45 -o walk.mp4");
   return {app, [options] { render(*options); }};
 }
