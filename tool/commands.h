@@ -26,5 +26,8 @@ Command train_command(CLI::App& program);
 Command info_command(CLI::App& program);
 Command evaluate_command(CLI::App& program);
 Command reconstruct_command(CLI::App& program);
+Command synth_command(CLI::App& program);
+Command walk_command(CLI::App& program);
+Command plot_command(CLI::App& program);
 
 }  // namespace gait::tool

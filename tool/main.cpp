@@ -75,21 +75,20 @@ int run(const Command& command) {
 }  // namespace
 
 int main(int argc, char** argv) try {
-  CLI::App program{"Recognise, reconstruct and draw human walking: what is done before the show.",
-                   "gait"};
+  CLI::App program{
+      "Recognise, reconstruct, synthesise and draw human walking: what is done before the show.",
+      "gait"};
   program.set_version_flag("--version", "gait " GAIT_VERSION);
   program.set_help_flag("-h,--help", "What this program does");
   program.option_defaults()->always_capture_default();
   program.require_subcommand(1);
 
   const std::vector<Command> commands = {
-      gait::tool::corpus_command(program),
-      gait::tool::label_command(program),
-      gait::tool::train_command(program),
-      gait::tool::info_command(program),
-      gait::tool::evaluate_command(program),
-      gait::tool::reconstruct_command(program),
-      gait::tool::render_command(program),
+      gait::tool::corpus_command(program),   gait::tool::label_command(program),
+      gait::tool::train_command(program),    gait::tool::info_command(program),
+      gait::tool::evaluate_command(program), gait::tool::reconstruct_command(program),
+      gait::tool::synth_command(program),    gait::tool::walk_command(program),
+      gait::tool::render_command(program),   gait::tool::plot_command(program),
   };
   for (const Command& command : commands)
     command.app->set_help_flag("-h,--help", "What this subcommand does");

@@ -1,0 +1,124 @@
+// gait synth: a walk in a model's styles, as long as one likes, out of nothing.
+#include <algorithm>
+#include <memory>
+#include <numbers>
+#include <optional>
+#include <string>
+#include <vector>
+
+#include "commands.h"
+#include "gait/corpus/demo_model.h"
+#include "gait/judge/planned_walk.h"
+#include "gait/motion/bvh.h"
+#include "number_range.h"
+#include "number_words.h"
+#include "output_file.h"
+#include "style_words.h"
+
+namespace gait::tool {
+
+namespace {
+
+constexpr double degree = std::numbers::pi / 180;
+
+struct SynthOptions {
+  std::string model, output, style, mix, engine = "style";
+  std::vector<std::string> changes;
+  std::optional<double> variation, exaggeration, seconds, rate;
+  std::optional<int> cycles;
+  std::optional<std::uint64_t> seed;
+  double turn = 0;  // degrees per second
+};
+
+StyledWalkPlan plan_of(const SynthOptions& options) {
+  if (options.style.empty() == options.mix.empty())
+    throw UsageError("expected either --style NAME or --mix NAME=WEIGHT,...");
+  if (options.cycles.has_value() == options.seconds.has_value())
+    throw UsageError("expected either --cycles N or --seconds S");
+  if (options.engine == "step" && (options.variation || options.exaggeration || options.seed))
+    throw UsageError("--variation, --exaggeration and --seed go with --engine style");
+  StyledWalkPlan plan;
+  plan.mix = options.style.empty() ? mix_said(options.mix, "--mix")
+                                   : std::vector<StyleShare>{{options.style, 1}};
+  for (const std::string& change : options.changes)
+    plan.changes.push_back(change_said(change, "--then"));
+  std::stable_sort(plan.changes.begin(), plan.changes.end(),
+                   [](const auto& a, const auto& b) { return a.seconds < b.seconds; });
+  plan.variation = options.variation.value_or(1);
+  plan.exaggeration = options.exaggeration.value_or(1);
+  plan.cycles = options.cycles.value_or(0);
+  plan.seconds = options.seconds.value_or(0);
+  plan.seed = options.seed.value_or(1);
+  plan.turn = options.turn * degree;
+  plan.frame_rate = options.rate.value_or(0);
+  return plan;
+}
+
+void synth(const SynthOptions& options) {
+  const StyledWalkPlan plan = plan_of(options);
+  OutputFile output(options.output);
+  const auto model = std::make_shared<const Model>(model_named(options.model));
+  const Clip clip = options.engine == "step" ? stepped_walk(model, plan) : styled_walk(model, plan);
+  write_bvh(bvh_from_clip(clip), output.part());
+  output.keep();
+}
+
+}  // namespace
+
+Command synth_command(CLI::App& program) {
+  const auto options = std::make_shared<SynthOptions>();
+  CLI::App* app = program.add_subcommand("synth", "Walk in a style, or a mix of them");
+  app->add_option("MODEL", options->model, "Model file, or gait-demo: the one that is built in")
+      ->required()
+      ->default_str("")
+      ->type_name("");
+  app->add_option("--style", options->style, "Style to walk in")->type_name("NAME");
+  app->add_option("--mix", options->mix, "Styles by weight: proud=0.7,sad=0.3")->type_name("MIX");
+  app->add_option("--then", options->changes,
+                  "Go over to another style or mix at this second; may be repeated")
+      ->allow_extra_args(false)
+      ->default_str("")
+      ->type_name("NAME@S");
+  app->add_option("--engine", options->engine,
+                  "style: cycles that vary as captured ones do; step: step by step, evenly")
+      ->check(CLI::IsMember({"style", "step"}).description(""))
+      ->type_name("style|step");
+  app->add_option("--variation", options->variation,
+                  "How much cycles differ: 0 not at all, 1 as captured, up to 2 (1)")
+      ->check(within(0.0, 2.0))
+      ->type_name("V");
+  app->add_option("--exaggeration", options->exaggeration,
+                  "0: the mean of all styles, 1: the style, up to 3: a caricature (1)")
+      ->check(within(-1.0, 3.0))
+      ->type_name("X");
+  app->add_option("--cycles", options->cycles,
+                  "Cycles to walk, from right contact to right contact")
+      ->check(CLI::Range(1, 10000))
+      ->type_name("N");
+  app->add_option("--seconds", options->seconds, "Seconds to walk")
+      ->check(within(0.1, 7200.0))
+      ->type_name("S");
+  app->add_option("--seed", options->seed, "The same seed gives the same walk (1)")
+      ->check(seed_check())
+      ->type_name("N");
+  app->add_option("--turn", options->turn, "Turn on the way, above 0 to the left")
+      ->check(within(-180.0, 180.0))
+      ->type_name("DEG_PER_S");
+  app->add_option("--rate", options->rate, "Frames per second to write (the model's)")
+      ->check(within(5.0, 240.0))
+      ->type_name("HZ");
+  app->add_option("-o,--output", options->output, "BVH file to write, in metres")
+      ->required()
+      ->type_name("BVH");
+  app->footer(
+      "The walk is under way when the file begins, at a right contact, and goes where its own "
+      "feet\n"
+      "take it.\n\n"
+      "Examples:\n"
+      "  gait synth walks.gait --style sad --cycles 20 -o sad.bvh\n"
+      "  gait synth walks.gait --mix proud=0.7,drunk=0.3 --seconds 30 --seed 7 -o mixed.bvh\n"
+      "  gait synth walks.gait --style proud --then sad@4 --seconds 8 -o change.bvh");
+  return {app, [options] { synth(*options); }};
+}
+
+}  // namespace gait::tool

@@ -1,0 +1,37 @@
+#include "style_words.h"
+
+#include <optional>
+#include <sstream>
+
+#include "commands.h"
+#include "number_words.h"
+
+namespace gait::tool {
+
+namespace {}  // namespace
+
+std::vector<StyleShare> mix_said(const std::string& text, const std::string& option) {
+  std::vector<StyleShare> mix;
+  if (text.find('=') == std::string::npos) return {{text, 1}};
+  std::istringstream stream(text);
+  for (std::string part; std::getline(stream, part, ',');) {
+    const std::size_t equals = part.rfind('=');
+    const std::optional<double> weight =
+        equals == std::string::npos ? std::nullopt : number_said(part.substr(equals + 1));
+    if (!weight || equals == 0)
+      throw UsageError(option + " " + text + ": expected STYLE=WEIGHT, found '" + part + "'");
+    mix.push_back({part.substr(0, equals), *weight});
+  }
+  return mix;
+}
+
+StyleChange change_said(const std::string& text, const std::string& option) {
+  const std::size_t at = text.rfind('@');
+  const std::optional<double> seconds =
+      at == std::string::npos ? std::nullopt : number_said(text.substr(at + 1));
+  if (!seconds || *seconds < 0 || at == 0)
+    throw UsageError(option + " " + text + ": expected STYLE@SECONDS");
+  return {*seconds, mix_said(text.substr(0, at), option)};
+}
+
+}  // namespace gait::tool

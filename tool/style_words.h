@@ -1,0 +1,17 @@
+// Styles as they are said on the command line: a name, or names with weights.
+#pragma once
+
+#include <string>
+#include <vector>
+
+#include "gait/judge/planned_walk.h"
+
+namespace gait::tool {
+
+// "proud" or "proud=0.7,sad=0.3". Throws UsageError that names `option`.
+std::vector<StyleShare> mix_said(const std::string& text, const std::string& option);
+
+// "sad@4": in sad from the fourth second on; a mix is understood too.
+StyleChange change_said(const std::string& text, const std::string& option);
+
+}  // namespace gait::tool
