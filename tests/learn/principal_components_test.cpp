@@ -107,6 +107,8 @@ TEST(PrincipalComponents, their_number_may_be_said_instead_and_is_never_more_tha
   Eigen::MatrixXd rows = fading_rows(10, 30, 0.9), again = rows;
   EXPECT_EQ(principal_components(rows, {.count = 4}).components.cols(), 4);
   EXPECT_EQ(principal_components(again, {.count = 99}).components.cols(), 9);
+  rows = fading_rows(10, 30, 0.9);
+  EXPECT_EQ(principal_components(rows, {.share = 0.999, .most = 3}).components.cols(), 3);
 }
 
 TEST(PrincipalComponents, have_the_same_signs_whatever_the_order_of_the_rows) {

@@ -154,10 +154,11 @@ inline void expect_same(const Variation& a, const Variation& b) {
 }
 
 inline void expect_same(const StyleCycles& a, const StyleCycles& b) {
-  const auto& [cycles, scores, duration] = a;
+  const auto& [cycles, scores, duration, correlation] = a;
   expect_same(cycles, b.cycles);
   expect_same(scores, b.scores);
   expect_same(duration, b.duration);
+  expect_same(correlation, b.correlation);
 }
 
 inline void expect_same(const StyleSpace& a, const StyleSpace& b) {

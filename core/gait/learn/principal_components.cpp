@@ -14,12 +14,13 @@ int kept(const Eigen::VectorXd& variances, const ComponentChoice& choice) {
   const int all = static_cast<int>(variances.size());
   if (choice.count > 0) return std::min(choice.count, all);
   const double wanted = choice.share * variances.sum();
+  const int most = choice.most > 0 ? std::min(choice.most, all) : all;
   double sum = 0;
-  for (int i = 0; i < all; ++i) {
+  for (int i = 0; i < most; ++i) {
     sum += variances[i];
     if (sum >= wanted) return i + 1;
   }
-  return all;
+  return most;
 }
 
 }  // namespace

@@ -11,10 +11,12 @@ struct PrincipalComponents {
   Eigen::VectorXd variances;   // of all min(rows - 1, columns) components, descending
 };
 
-// How many components to keep: those that carry `share` of the variance, or `count` if not 0.
+// How many components to keep: those that carry `share` of the variance, but no more than `most`
+// if that is not 0; or `count` if that is not 0.
 struct ComponentChoice {
   double share = 0.9;
   int count = 0;
+  int most = 0;
 };
 
 // Mean-centred analysis of `rows` (observations by values) by the eigenvectors of the Gram matrix

@@ -25,6 +25,20 @@ Eigen::MatrixXd first_of_each(const std::vector<Cycles>& of_style, std::size_t n
   return matrix;
 }
 
+// Between the scores and, last, the duration. What does not vary correlates with nothing.
+Eigen::MatrixXd correlation_of(const Eigen::MatrixXd& scores, const Eigen::VectorXd& durations) {
+  Eigen::MatrixXd values(scores.rows(), scores.cols() + 1);
+  values << scores, durations;
+  const Eigen::Index size = values.cols();
+  if (values.rows() < 2) return Eigen::MatrixXd::Identity(size, size);
+  values.rowwise() -= values.colwise().mean().eval();
+  for (Eigen::Index i = 0; i < size; ++i)
+    if (const double norm = values.col(i).norm(); norm > 1e-12) values.col(i) /= norm;
+  Eigen::MatrixXd correlation = values.transpose() * values;
+  correlation.diagonal().setOnes();
+  return correlation;
+}
+
 StyleCycles style_cycles(const Cycles& cycles, const CycleSpace& space) {
   StyleCycles style;
   style.cycles = static_cast<int>(cycles.size());
@@ -38,6 +52,7 @@ StyleCycles style_cycles(const Cycles& cycles, const CycleSpace& space) {
   for (int i = 0; i < space.kept(); ++i)
     style.scores.push_back(style.cycles == 0 ? Variation{} : variation_over(cycles, scores.col(i)));
   if (style.cycles > 0) style.duration = variation_over(cycles, durations);
+  style.correlation = correlation_of(scores, durations);
   return style;
 }
 

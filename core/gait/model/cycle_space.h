@@ -35,6 +35,7 @@ struct StyleCycles {
   int cycles = 0;                 // that it was learnt from; 0: none was straight, it cannot walk
   std::vector<Variation> scores;  // per kept component
   Variation duration;             // seconds
+  Eigen::MatrixXd correlation;    // between scores and, last, duration; from cycle to cycle
 };
 
 // All styles in one space.

@@ -1,3 +1,4 @@
+#include <Eigen/Cholesky>
 #include <algorithm>
 #include <cmath>
 
@@ -52,6 +53,14 @@ void check_style(const StyleCycles& style, int components, const std::string& fi
   for (std::size_t i = 0; i < style.scores.size(); ++i)
     check_variation(style.scores[i], item(field + ".scores", i));
   check_variation(style.duration, field + ".duration");
+  expect_values(style.correlation, components + 1, components + 1, field + ".correlation");
+  const Eigen::Index size = components + 1;
+  if (!(style.correlation.array().abs() <= 1 + unit_tolerance).all() ||
+      !((style.correlation.diagonal().array() - 1).abs() <= unit_tolerance).all() ||
+      Eigen::LLT<Eigen::MatrixXd>(style.correlation + unit_tolerance * static_cast<double>(size) *
+                                                          Eigen::MatrixXd::Identity(size, size))
+              .info() != Eigen::Success)
+    fail(field + ".correlation", "correlations: 1 in the diagonal and positive semidefinite");
   if (style.cycles == 0) return;
   expect_within(style.duration.lowest, 1e-3, longest_cycle, field + ".duration.lowest");
   expect_within(style.duration.highest, 1e-3, longest_cycle, field + ".duration.highest");

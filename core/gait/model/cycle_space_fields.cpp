@@ -43,7 +43,8 @@ Json field_of(const StyleSpace& space) {
     for (const Variation& score : style.scores) scores.push_back(node(score));
     styles.push_back({{"cycles", style.cycles},
                       {"scores", std::move(scores)},
-                      {"duration", node(style.duration)}});
+                      {"duration", node(style.duration)},
+                      {"correlation", symmetric_array_node(style.correlation)}});
   }
   return {{"space", field_of(space.space)},
           {"cycles_per_style", space.cycles_per_style},
@@ -87,6 +88,7 @@ StyleSpace style_space(const ModelField& field) {
     for (const ModelField& score : item["scores"].items())
       style.scores.push_back(variation_of(score));
     style.duration = variation_of(item["duration"]);
+    style.correlation = item["correlation"].symmetric();
     space.styles.push_back(std::move(style));
   }
   return space;

@@ -17,13 +17,23 @@ double reach(double z, const DrawBounds& bounds) noexcept {
 }  // namespace
 
 CycleDraws::CycleDraws(int count, std::uint64_t seed)
-    : seed_(seed), random_(seed), current_(Eigen::VectorXf::Zero(count)), next_(current_) {}
+    : seed_(seed),
+      random_(seed),
+      current_(Eigen::VectorXf::Zero(count)),
+      next_(current_),
+      normals_(current_) {}
 
-void CycleDraws::draw(int i, const DrawBounds& bounds) noexcept {
+double CycleDraws::uniform(int i, const Eigen::VectorXf& row) noexcept {
+  normals_[i] = static_cast<float>(normal_quantile(random_.uniform()));
+  const double length = row.head(i + 1).norm();
+  return normal_distribution(row.head(i + 1).dot(normals_.head(i + 1)) / length);
+}
+
+void CycleDraws::draw(int i, double uniform, const DrawBounds& bounds) noexcept {
   const double last = std::clamp<double>(current_[i], bounds.lowest, bounds.highest);
-  next_[i] = static_cast<float>(truncated_normal(random_.uniform(),
-                                                 std::max(last - bounds.limit, bounds.lowest),
-                                                 std::min(last + bounds.limit, bounds.highest)));
+  next_[i] =
+      static_cast<float>(truncated_normal(uniform, std::max(last - bounds.limit, bounds.lowest),
+                                          std::min(last + bounds.limit, bounds.highest)));
 }
 
 void CycleDraws::draw_first(int i, const DrawBounds& bounds) noexcept {

@@ -26,8 +26,13 @@ class CycleDraws {
   void seed(std::uint64_t seed) noexcept { seed_ = seed, rewind(); }
   void rewind() noexcept { random_ = RandomStream(seed_); }  // the same numbers once more
 
+  // Numbers of one cycle may go together: their uniforms come from correlated normals (a Gaussian
+  // copula), which leaves each number's own chain what it was. Takes the next of these, number i;
+  // `row` is row i of a Cholesky factor of the correlations, i + 1 entries, of any length.
+  double uniform(int i, const Eigen::VectorXf& row) noexcept;
+
   // Draws number i of the next cycle.
-  void draw(int i, const DrawBounds& bounds) noexcept;
+  void draw(int i, double uniform, const DrawBounds& bounds) noexcept;
   // The same without a cycle before it: from the density at rest.
   void draw_first(int i, const DrawBounds& bounds) noexcept;
   void turn_over() noexcept;  // the next cycle becomes the current one
@@ -39,6 +44,7 @@ class CycleDraws {
   std::uint64_t seed_;
   RandomStream random_;
   Eigen::VectorXf current_, next_;
+  Eigen::VectorXf normals_;  // behind the uniforms of this cycle
 };
 
 }  // namespace gait

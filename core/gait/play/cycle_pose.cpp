@@ -17,6 +17,23 @@ Eigen::Quaternionf rotation_of(const Eigen::VectorXf& values, std::size_t place,
   return reference * exponential_map<float>({values[first], values[first + 1], values[first + 2]});
 }
 
+// Rows of frames, one after the other, changed so that the last leads on into the first. A captured
+// cycle ends where the next one began, which is not where it began itself; played in a circle the
+// difference would be a kick between two frames. It is spread over the last fifth.
+Eigen::MatrixXd closed(const Eigen::MatrixXd& frames_by_columns, int frames) {
+  Eigen::MatrixXd result = frames_by_columns;
+  const Eigen::Index values = result.rows() / frames;
+  const int spread = frames / 5;
+  if (spread < 2) return result;
+  const auto frame = [&](int k) { return frames_by_columns.middleRows(k * values, values); };
+  const Eigen::MatrixXd gap = frame(0) - (2 * frame(frames - 1) - frame(frames - 2));
+  for (int k = frames - spread; k < frames; ++k) {
+    const double share = static_cast<double>(k - (frames - spread)) / spread;
+    result.middleRows(k * values, values) += share * share * (3 - 2 * share) * gap;
+  }
+  return result;
+}
+
 }  // namespace
 
 std::shared_ptr<const CycleTables> make_cycle_tables(const CycleSpace& space, const Body& body) {
@@ -32,9 +49,11 @@ std::shared_ptr<const CycleTables> make_cycle_tables(const CycleSpace& space, co
                   ", found " + std::to_string(joint));
   auto tables = std::make_shared<CycleTables>();
   const Eigen::Index values = space.values() / space.frames;
+  const Eigen::VectorXd mean = closed(space.mean, space.frames);
+  const Eigen::MatrixXd components = closed(space.components, space.frames);
   for (int k = 0; k < space.frames; ++k) {
-    tables->means.push_back(space.mean.segment(k * values, values).cast<float>());
-    tables->components.push_back(space.components.middleRows(k * values, values).cast<float>());
+    tables->means.push_back(mean.segment(k * values, values).cast<float>());
+    tables->components.push_back(components.middleRows(k * values, values).cast<float>());
   }
   tables->joints = space.joints;
   for (const Eigen::Quaterniond& reference : body.references)

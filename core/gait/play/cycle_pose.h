@@ -16,7 +16,8 @@
 
 namespace gait {
 
-// A cycle space in single precision, frame by frame. Walkers share it; it never changes.
+// A cycle space in single precision, frame by frame, its cycles closed: the last fifth is bent so
+// that it leads on into the first frame. Walkers share it; it never changes.
 struct CycleTables {
   std::vector<Eigen::VectorXf> means;          // per frame: 3 values per joint
   std::vector<Eigen::MatrixXf> components;     // per frame: values by components

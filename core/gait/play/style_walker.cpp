@@ -1,5 +1,6 @@
 #include "gait/play/style_walker.h"
 
+#include <Eigen/Cholesky>
 #include <algorithm>
 #include <cmath>
 
@@ -9,10 +10,12 @@ namespace gait {
 
 namespace {
 
-constexpr double join = 0.1;  // of the phase: over which one cycle becomes the next
-constexpr float step = 0.5f;  // cycles: over which a control arrives
-constexpr float shortest_cycle = 0.2f, longest_cycle = 10;  // seconds, however exaggerated
-constexpr float beyond_range = 0.1f;  // of the observed range's ends: durations stay within
+constexpr double join = 0.1;            // of the phase: over which one cycle becomes the next
+constexpr double drawing = 0.75;        // of the phase: over which the next cycle is drawn
+constexpr double of_its_own = 0.1;      // share of each number's variance that is its own
+constexpr float step = 0.5f;            // cycles: over which a control arrives
+constexpr float beyond_styles = 0.25f;  // of all styles' range: exaggerated durations stay within
+constexpr float beyond_range = 0.1f;    // of the observed range's ends: durations stay within
 
 const StyleSpace& style_space_of(const Model& model) {
   if (!model.style_space || !model.body)
@@ -68,11 +71,22 @@ StyleWalker::StyleWalker(std::shared_ptr<const Model> model, std::uint64_t seed,
       deviations_(i, s) = static_cast<float>(variation.deviation);
       limits_(i, s) = static_cast<float>(variation.largest_change);
     }
+    const Eigen::MatrixXd shrunk =
+        (1 - of_its_own) * style.correlation +
+        of_its_own * Eigen::MatrixXd::Identity(components + 1, components + 1);
+    const Eigen::LLT<Eigen::MatrixXd> factor(shrunk);
+    together_.push_back(Eigen::MatrixXd(factor.matrixU()).cast<float>());
     ranges_(0, s) = static_cast<float>(style.duration.lowest) * (1 - beyond_range);
     ranges_(1, s) = static_cast<float>(style.duration.highest) * (1 + beyond_range);
   }
   overall_ = means_ * even_weights(space);
-  mean_ = deviation_ = limit_ = overall_;
+  shortest_ = longest_ = overall_[components];
+  for (Eigen::Index s = 0; s < styles; ++s) {
+    if (space.styles[static_cast<std::size_t>(s)].cycles == 0) continue;
+    shortest_ = std::min(shortest_, ranges_(0, s) * (1 - beyond_styles));
+    longest_ = std::max(longest_, ranges_(1, s) * (1 + beyond_styles));
+  }
+  mean_ = deviation_ = limit_ = row_ = overall_;
   range_ = Eigen::VectorXf::Zero(2);
   component_deviations_ = space.space.variances.head(components).cwiseSqrt().cast<float>();
   pinned_.assign(components, Glide(0));
@@ -98,10 +112,7 @@ void StyleWalker::settle() noexcept {
   for (Glide& glide : pinned_) glide.arrive();
   for (Glide& glide : pin_values_) glide.arrive();
   mix_styles();
-  draws_.rewind();
-  draw_next(true);
-  draws_.turn_over();
-  draw_next(false);
+  draw_first_cycle();
   show();
 }
 
@@ -167,38 +178,56 @@ void StyleWalker::mix_styles() noexcept {
   range_.noalias() = ranges_ * weights;
   const float duration = mean_[components()];
   mean_ = overall_ + exaggeration_.value() * (mean_ - overall_);
+  // Durations by their ratio: twice in a hurry is fast, not instant.
+  const float usual = overall_[components()];
+  mean_[components()] =
+      std::clamp(usual * std::pow(duration / usual, exaggeration_.value()), shortest_, longest_);
   range_.array() += mean_[components()] - duration;
 }
 
-// Bounds in deviations: the limit, and for durations the observed range.
-void StyleWalker::draw_next(bool first) noexcept {
-  const int count = static_cast<int>(mean_.size());
-  for (int i = 0; i < count; ++i) {
-    DrawBounds bounds = i == components() ? duration_bounds() : DrawBounds{};
-    if (deviation_[i] > 0) bounds.limit = std::min<double>(limit_[i] / deviation_[i], bounds.limit);
-    if (first)
-      draws_.draw_first(i, bounds);
-    else
-      draws_.draw(i, bounds);
-  }
-}
-
-DrawBounds StyleWalker::duration_bounds() const noexcept {
+// In deviations: the limit, and for durations the observed range.
+DrawBounds StyleWalker::bounds(int i) const noexcept {
   DrawBounds bounds;
-  const int i = components();
+  if (deviation_[i] > 0) bounds.limit = std::min<double>(limit_[i] / deviation_[i], bounds.limit);
   const float deviation = variation_.value() * deviation_[i];
-  if (deviation <= 0) return bounds;
+  if (i < components() || deviation <= 0) return bounds;
   bounds.lowest = std::max<double>(bounds.lowest, (range_[0] - mean_[i]) / deviation);
   bounds.highest = std::min<double>(bounds.highest, (range_[1] - mean_[i]) / deviation);
   return bounds;
 }
 
+void StyleWalker::draw_first_cycle() noexcept {
+  const int count = static_cast<int>(mean_.size());
+  draws_.rewind();
+  for (int i = 0; i < count; ++i) draws_.draw_first(i, bounds(i));
+  // Each number is at rest already; some cycles until they go together.
+  constexpr int cycles = 8;
+  for (int cycle = 0; cycle < cycles; ++cycle) {
+    draws_.turn_over();
+    drawn_ = 0;
+    draw_next(count);
+  }
+  draws_.turn_over();
+  drawn_ = 0;
+}
+
+// A few numbers a frame, so that no frame takes much longer than another.
+void StyleWalker::draw_next(int count) noexcept {
+  const Eigen::VectorXf& weights = mix_.weights();
+  for (; drawn_ < std::min(count, static_cast<int>(mean_.size())); ++drawn_) {
+    row_.head(drawn_ + 1).setZero();
+    for (std::size_t style = 0; style < together_.size(); ++style)
+      if (const float weight = weights[static_cast<Eigen::Index>(style)]; weight > 0)
+        row_.head(drawn_ + 1) += weight * together_[style].col(drawn_).head(drawn_ + 1);
+    draws_.draw(drawn_, draws_.uniform(drawn_, row_), bounds(drawn_));
+  }
+}
+
 float StyleWalker::duration() const noexcept {
   const int i = components();
   // The range again: variation or style may have changed since the draw.
-  const float drawn = std::clamp(
-      mean_[i] + variation_.value() * deviation_[i] * draws_.current()[i], range_[0], range_[1]);
-  return std::clamp(drawn, shortest_cycle, longest_cycle);
+  const float drawn = mean_[i] + variation_.value() * deviation_[i] * draws_.current()[i];
+  return std::clamp(std::clamp(drawn, range_[0], range_[1]), shortest_, longest_);
 }
 
 double StyleWalker::frequency() const noexcept {
@@ -232,11 +261,13 @@ bool StyleWalker::advance(double seconds) noexcept {
     since_contact_ = (phase_ - 1) / rate;
     contact_ = Foot::right;
     ++cycle_;
+    draw_next(static_cast<int>(mean_.size()));
     draws_.turn_over();
-    draw_next(false);
+    drawn_ = 0;
     // What is left of this frame passes at the new cycle's rate.
     phase_ = std::min(since_contact_ * frequency(), 0.4999);
   }
+  draw_next(static_cast<int>(phase_ / drawing * static_cast<double>(mean_.size())) + 1);
   show();
   return true;
 }

@@ -2,7 +2,9 @@
 //
 // Each cycle has scores of its own in the space of styles and a duration of its own (eq. 2 and 4,
 // cycle_draws.h); over the last tenth of the phase they become those of the next. Beyond the paper
-// styles mix by weights: mean, deviation and largest change of each score are interpolated.
+// scores that went together in training go together here: drawn each for itself, as in eq. 2, they
+// make cycles that nobody walked. And styles mix by weights: mean, deviation, largest change of
+// each score and what goes together are interpolated.
 //
 // Controls may be set between any two frames. What is set before the first frame holds from it on;
 // after that nothing jumps: styles, variation, exaggeration and pins arrive within about a step. A
@@ -82,9 +84,10 @@ class StyleWalker {
   bool set(Glide& glide, float value, float least, float most) noexcept;
   void settle() noexcept;  // controls set before the first frame hold at once
   void mix_styles() noexcept;
-  void draw_next(bool first) noexcept;
-  DrawBounds duration_bounds() const noexcept;
-  double frequency() const noexcept;  // cycles per second
+  DrawBounds bounds(int i) const noexcept;
+  void draw_first_cycle() noexcept;
+  void draw_next(int count) noexcept;  // up to this many numbers of the next cycle
+  double frequency() const noexcept;   // cycles per second
   void show() noexcept;
 
   CyclePose cycle_pose_;
@@ -93,15 +96,19 @@ class StyleWalker {
 
   // Per style, columns: scores and then the duration; mixed by the weights.
   Eigen::MatrixXf means_, deviations_, limits_;
-  Eigen::MatrixXf ranges_;  // lowest and highest duration
+  Eigen::MatrixXf ranges_;                 // lowest and highest duration
+  std::vector<Eigen::MatrixXf> together_;  // columns: rows of the correlations' Cholesky factor
   Eigen::VectorXf mean_, deviation_, limit_, range_;
-  Eigen::VectorXf overall_;  // mean of all styles
+  Eigen::VectorXf overall_;           // mean of all styles
+  float shortest_ = 0, longest_ = 0;  // cycle, however exaggerated
 
   Glide variation_{1}, exaggeration_{1};
   std::vector<Glide> pinned_, pin_values_;  // how much, and at which score
   Eigen::VectorXf component_deviations_;
   float cadence_scale_ = 1, cadence_ = 0;
 
+  int drawn_ = 0;        // numbers of the next cycle that are drawn already
+  Eigen::VectorXf row_;  // of the mixed factor
   bool moved_ = false;
   double phase_ = 0;
   std::int64_t cycle_ = 0;

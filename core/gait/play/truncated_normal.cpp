@@ -17,7 +17,7 @@ double density(double x) noexcept {
 double lower_quantile(double probability) noexcept {
   const double wanted = std::log(probability);
   double x = -std::sqrt(std::max(0.0, -2 * wanted - std::log(1 - 2 * wanted) - 0.6));
-  for (int i = 0; i < 5; ++i) {
+  for (int i = 0; i < 4; ++i) {
     const double mass = normal_distribution(x);
     const double slope = density(x) / mass;    // of the logarithm
     const double bend = -slope * (x + slope);  // and its derivative

@@ -1,0 +1,305 @@
+// What the style walker walks, judged as a captured walk would be: by the recogniser, by its joints
+// and by its feet.
+#include <gtest/gtest.h>
+
+#include <cmath>
+#include <map>
+
+#include "gait/judge/foot_slide.h"
+#include "gait/judge/reconstructed_clip.h"
+#include "gait/motion/contacts.h"
+#include "gait/motion/kinematics.h"
+#include "gait/motion/resample.h"
+#include "play/styled_walks.h"
+
+namespace gait {
+namespace {
+
+using testing::captured_walks;
+using testing::corpus_walks;
+using testing::StyledWalks;
+using testing::Walked;
+
+double frame_rate(const StyledWalks& walks) { return walks.walks.front().clip.frame_rate; }
+
+Walked walk_of_style(const StyledWalks& walks, int style, double seconds, std::uint64_t seed) {
+  StyleWalker walker(walks.model, seed);
+  walker.set_style(style);
+  const double rate = frame_rate(walks);
+  return testing::walked(*walks.model, walker, rate, static_cast<int>(seconds * rate));
+}
+
+// Share of the cycles of which the style's mean posterior is the largest.
+double recognised(const StyledWalks& walks, const Walked& walked, int style) {
+  const Model& model = *walks.model;
+  const BodyPoses poses =
+      body_poses(resampled(walked.clip, model.frame_rate), *model.body,
+                 match_joints(*model.body, walked.clip.skeleton, walked.clip.name), 1.1);
+  const ReconstructedClip seen = reconstruct_clip(walks.model, poses, model.frame_rate, "walk", {});
+  int right = 0, cycles = 0, begin = -1;
+  for (const Contact& contact :
+       contacts_at(walked.contacts, model.frame_rate / frame_rate(walks))) {
+    if (contact.foot != Foot::right || contact.frame >= seen.style_posteriors.cols()) continue;
+    if (begin >= 0) {
+      Eigen::Index best = 0;
+      seen.style_posteriors.middleCols(begin, contact.frame - begin)
+          .rowwise()
+          .mean()
+          .maxCoeff(&best);
+      right += best == style, ++cycles;
+    }
+    begin = contact.frame;
+  }
+  EXPECT_GT(cycles, 50);
+  return static_cast<double>(right) / cycles;
+}
+
+void expect_recognised(const StyledWalks& walks) {
+  for (std::size_t style = 0; style < walks.model->styles.size(); ++style) {
+    const int index = static_cast<int>(style);
+    const double share = recognised(walks, walk_of_style(walks, index, 200, 50 + style), index);
+    EXPECT_GE(share, 0.95) << walks.model->styles[style];
+    ::testing::Test::RecordProperty("recognised " + walks.model->styles[style],
+                                    std::to_string(share));
+  }
+}
+
+// Angular speed (rad/s) and acceleration (rad/s^2) of every joint, frame by frame.
+struct Movement {
+  std::vector<double> speed, acceleration;
+  void add(const Clip& clip, const std::vector<int>& joints, int frame) {
+    const double rate = clip.frame_rate;
+    for (const int joint : joints) {
+      const auto turned = [&](int at) {
+        return Eigen::Vector3d(rate * rotation_vector<double>(clip.pose(at - 1)[joint].conjugate() *
+                                                              clip.pose(at)[joint]));
+      };
+      speed.push_back(turned(frame).norm());
+      acceleration.push_back(rate * (turned(frame) - turned(frame - 1)).norm());
+    }
+  }
+};
+
+double percentile(std::vector<double> values, double share) {
+  const auto at = static_cast<std::ptrdiff_t>(share * static_cast<double>(values.size() - 1));
+  std::nth_element(values.begin(), values.begin() + at, values.end());
+  return values[static_cast<std::size_t>(at)];
+}
+
+void expect_smooth_joins(const StyledWalks& walks) {
+  const Model& model = *walks.model;
+  for (std::size_t style = 0; style < model.styles.size(); ++style) {
+    Movement captured, joins;
+    for (const Walk& walk : walks.walks) {
+      if (walk.style != model.styles[style]) continue;
+      const std::vector<int> matched = match_joints(*model.body, walk.clip.skeleton, "walk");
+      std::vector<int> joints;
+      for (const int joint : model.style_space->space.joints) joints.push_back(matched[joint]);
+      const WalkTrack track = follow_walk(walk.clip, find_roles(walk.clip.skeleton));
+      for (const Cycle& cycle : straight_cycles(track))
+        for (int frame = std::max(2, cycle.begin); frame < cycle.end; ++frame)
+          captured.add(walk.clip, joints, frame);
+    }
+    const Walked walked = walk_of_style(walks, static_cast<int>(style), 200, 70 + style);
+    for (int frame = 2; frame < walked.clip.frames(); ++frame) {
+      const double phase = walked.phase[frame], per_frame = phase - walked.phase[frame - 1];
+      // From where the next cycle comes in to two frames after it has taken over.
+      if (phase >= 0.8 || phase < 2 * per_frame || per_frame < 0)
+        joins.add(walked.clip, model.style_space->space.joints, frame);
+    }
+    EXPECT_LE(percentile(joins.speed, 0.999), 1.1 * percentile(captured.speed, 0.999))
+        << model.styles[style];
+    EXPECT_LE(percentile(joins.acceleration, 0.999), 1.1 * percentile(captured.acceleration, 0.999))
+        << model.styles[style];
+  }
+}
+
+// Height of the lowest point of either foot, frame by frame.
+std::vector<double> lowest_points(const Clip& clip, const JointRoles& roles) {
+  const WorldPoses world = world_poses(clip);
+  const int joints = clip.skeleton.size();
+  std::vector<bool> foot(static_cast<std::size_t>(joints), false);
+  std::vector<double> lowest(static_cast<std::size_t>(clip.frames()), 1e9);
+  for (int joint = 0; joint < joints; ++joint) {
+    const int parent = clip.skeleton.joints[joint].parent;
+    foot[joint] =
+        joint == roles.right.foot || joint == roles.left.foot || (parent >= 0 && foot[parent]);
+    if (!foot[joint]) continue;
+    for (int frame = 0; frame < clip.frames(); ++frame) {
+      const std::size_t at = static_cast<std::size_t>(frame) * joints + joint;
+      lowest[frame] = std::min(lowest[frame], world.positions[at].y());
+      for (const Eigen::Vector3d& tip : clip.skeleton.joints[joint].tips)
+        lowest[frame] =
+            std::min(lowest[frame], (world.positions[at] + world.rotations[at] * tip).y());
+    }
+  }
+  return lowest;
+}
+
+// A captured walk's poses put on the ground by the same root.
+Clip by_its_feet(const StyledWalks& walks, const Walk& walk) {
+  const Body& body = *walks.model->body;
+  const JointRoles roles = body_roles(body);
+  const BodyPoses poses =
+      body_poses(walk.clip, body, match_joints(body, walk.clip.skeleton, "walk"),
+                 follow_walk(walk.clip, find_roles(walk.clip.skeleton)).cycle_seconds);
+  Clip clip = body_clip(body, "walk", walk.clip.frame_rate, poses.frames());
+  RootMotion root(body.skeleton, roles, walk.clip.frame_rate);
+  for (int frame = 0; frame < poses.frames(); ++frame) {
+    std::vector<Eigen::Quaternionf> pose;
+    for (const Eigen::Quaterniond& rotation : poses.pose(frame))
+      pose.push_back(rotation.cast<float>());
+    const Eigen::Vector3f hips = root.advance(pose, static_cast<float>(poses.heading[frame]));
+    place_body(clip, frame, roles, poses.pose(frame), poses.heading[frame], hips.cast<double>());
+  }
+  return clip;
+}
+
+TEST(StyleWalkerWalks, of_the_built_in_styles_are_recognised) { expect_recognised(corpus_walks()); }
+
+TEST(StyleWalkerWalks, of_captured_styles_are_recognised) {
+  GAIT_NEEDS_SHARED_DATA("bandai-namco-2");
+  expect_recognised(captured_walks());
+}
+
+TEST(StyleWalkerWalks, of_the_built_in_styles_join_their_cycles_smoothly) {
+  expect_smooth_joins(corpus_walks());
+}
+
+TEST(StyleWalkerWalks, of_captured_styles_join_their_cycles_smoothly) {
+  GAIT_NEEDS_SHARED_DATA("bandai-namco-2");
+  expect_smooth_joins(captured_walks());
+}
+
+TEST(StyleWalkerWalks, of_captured_styles_slide_no_more_than_was_captured) {
+  GAIT_NEEDS_SHARED_DATA("bandai-namco-2");
+  const StyledWalks& walks = captured_walks();
+  const JointRoles roles = body_roles(*walks.model->body);
+  for (std::size_t style = 0; style < walks.model->styles.size(); ++style) {
+    double own = 0;
+    int stances = 0;
+    for (const Walk& walk : walks.walks) {
+      if (walk.style != walks.model->styles[style]) continue;
+      const JointRoles clip_roles = find_roles(walk.clip.skeleton);
+      for (const double stance :
+           foot_slide(walk.clip, clip_roles, follow_walk(walk.clip, clip_roles).contacts).stances)
+        own += stance, ++stances;
+    }
+    const Walked walked = walk_of_style(walks, static_cast<int>(style), 60, style);
+    EXPECT_LE(foot_slide(walked.clip, roles, walked.contacts).mean, own / stances)
+        << walks.model->styles[style];
+  }
+}
+
+// The built-in walks' feet do not slide at all, being drawn so; a mean of several poses does.
+TEST(StyleWalkerWalks, of_the_built_in_styles_slide_by_a_centimetre_or_two) {
+  const StyledWalks& walks = corpus_walks();
+  const JointRoles roles = body_roles(*walks.model->body);
+  for (std::size_t style = 0; style < walks.model->styles.size(); ++style) {
+    const Walked walked = walk_of_style(walks, static_cast<int>(style), 60, style);
+    EXPECT_LT(foot_slide(walked.clip, roles, walked.contacts).mean, 20)
+        << walks.model->styles[style];
+  }
+}
+
+// One centimetre, or as deep as the root lets this style's captured poses sink.
+void expect_on_the_ground(const StyledWalks& walks) {
+  const JointRoles roles = body_roles(*walks.model->body);
+  for (std::size_t style = 0; style < walks.model->styles.size(); ++style) {
+    double deepest = -0.01;
+    for (const Walk& walk : walks.walks)
+      if (walk.style == walks.model->styles[style])
+        for (const double height : lowest_points(by_its_feet(walks, walk), roles))
+          deepest = std::min(deepest, height - 0.005);
+    const Walked walked = walk_of_style(walks, static_cast<int>(style), 60, style);
+    for (const double height : lowest_points(walked.clip, roles)) EXPECT_GT(height, deepest);
+  }
+}
+
+TEST(StyleWalkerWalks, have_no_foot_under_the_ground) {
+  expect_on_the_ground(corpus_walks());
+  if (std::filesystem::exists(testing::shared_data() / "bandai-namco-2"))
+    expect_on_the_ground(captured_walks());
+}
+
+// Angles between the bones above and below a joint.
+struct Bends {
+  std::array<double, 4> least{9, 9, 9, 9}, most{};  // knees, elbows
+  static std::array<double, 4> of(const Clip& clip, const std::vector<Role>& roles,
+                                  const WorldPoses& world, int frame) {
+    const auto place = [&](Role role) {
+      const auto joint = std::find(roles.begin(), roles.end(), role) - roles.begin();
+      return world.positions[static_cast<std::size_t>(frame) * clip.skeleton.size() + joint];
+    };
+    const auto bend = [&](Role a, Role b, Role c) {
+      const Eigen::Vector3d above = place(b) - place(a), below = place(c) - place(b);
+      return std::atan2(above.cross(below).norm(), above.dot(below));
+    };
+    // Of a knee: below zero when it bends the wrong way.
+    const Eigen::Vector3d leftward = place(Role::left_thigh) - place(Role::right_thigh);
+    const auto knee = [&](Role a, Role b, Role c) {
+      const Eigen::Vector3d axis = (place(b) - place(a)).cross(place(c) - place(b));
+      return std::copysign(bend(a, b, c), axis.dot(leftward));
+    };
+    return {knee(Role::left_thigh, Role::left_shank, Role::left_foot),
+            knee(Role::right_thigh, Role::right_shank, Role::right_foot),
+            bend(Role::left_arm, Role::left_forearm, Role::left_hand),
+            bend(Role::right_arm, Role::right_forearm, Role::right_hand)};
+  }
+};
+
+// Seven degrees: normally distributed scores go further than the few cycles that were seen, and the
+// built-in legs are drawn never to come nearer to straight than 7 degrees.
+constexpr double tolerance = 0.12;
+
+void expect_human_between_styles(const StyledWalks& walks) {
+  const Model& model = *walks.model;
+  const JointRoles roles = body_roles(*model.body);
+  const bool hands = roles.joint(Role::left_hand) >= 0 && roles.joint(Role::right_hand) >= 0;
+  Bends seen;
+  for (const Walk& walk : walks.walks) {
+    const std::vector<Role> of_joint = find_roles(walk.clip.skeleton).of_joint;
+    const WorldPoses world = world_poses(walk.clip);
+    for (int frame = 0; frame < walk.clip.frames(); ++frame) {
+      const auto bends = Bends::of(walk.clip, of_joint, world, frame);
+      for (std::size_t i = 0; i < (hands ? 4U : 2U); ++i) {
+        seen.least[i] = std::min(seen.least[i], bends[i]);
+        seen.most[i] = std::max(seen.most[i], bends[i]);
+      }
+    }
+  }
+  const double rate = frame_rate(walks);
+  for (std::size_t a = 0; a < model.styles.size(); ++a)
+    for (std::size_t b = 0; b < a; ++b) {
+      StyleWalker walker(walks.model, a * 100 + b);
+      std::vector<float> weights(model.styles.size(), 0);
+      weights[a] = weights[b] = 1;
+      walker.set_weights(weights);
+      const Walked walked = testing::walked(model, walker, rate, static_cast<int>(12 * rate));
+      const WorldPoses world = world_poses(walked.clip);
+      const std::string pair = model.styles[a] + " and " + model.styles[b];
+      for (int frame = 0; frame < walked.clip.frames(); ++frame) {
+        const auto bends = Bends::of(walked.clip, model.body->roles, world, frame);
+        for (std::size_t i = 0; i < (hands ? 4U : 2U); ++i) {
+          EXPECT_GE(bends[i], seen.least[i] - tolerance) << pair << ", bend " << i;
+          EXPECT_LE(bends[i], seen.most[i] + tolerance) << pair << ", bend " << i;
+        }
+      }
+      for (const double height : lowest_points(walked.clip, roles)) {
+        EXPECT_GT(height, -0.02) << pair;  // the root lets active walkers sink by 14 mm
+        EXPECT_LT(height, 0.04) << pair;   // no flying
+      }
+    }
+}
+
+TEST(StyleWalkerWalks, half_way_between_two_built_in_styles_are_still_human) {
+  expect_human_between_styles(corpus_walks());
+}
+
+TEST(StyleWalkerWalks, half_way_between_two_captured_styles_are_still_human) {
+  GAIT_NEEDS_SHARED_DATA("bandai-namco-2");
+  expect_human_between_styles(captured_walks());
+}
+
+}  // namespace
+}  // namespace gait
