@@ -73,7 +73,7 @@ struct Field {
 
 void draw_y_axis(Canvas& canvas, const Field& field) {
   const Axis& axis = field.panel.y;
-  const double step = tick_step(axis, field.height / 60);
+  const double step = tick_step(axis, field.height / 45);
   for (double i = std::ceil(axis.low / step - 1e-9); i * step <= axis.high + 1e-9 * step; ++i) {
     const double y = field.y(i * step);
     canvas.line(field.left, y, field.left + field.width, y, 1, grid, Ends::cut);
