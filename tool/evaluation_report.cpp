@@ -61,10 +61,10 @@ void print_recognition(const Evaluation& evaluation) {
 }
 
 void print_outputs(const Evaluation& evaluation) {
-  const char* meanings[] = {"angle to the true joint, degrees, were nothing done but to average",
-                            "if the average pose of the recognised moment stood in",
-                            "if this walk's own way is mapped onto it",
-                            "what comes out: the same, smoothed"};
+  const char* meanings[] = {"degrees off the true joints, if one average pose stood in throughout",
+                            "with the average pose of the recognised moment",
+                            "with this walk's own way mapped onto it",
+                            "in what comes out: the same, smoothed"};
   for (const Stage stage : stages)
     print_row("error, " + std::string(stage_name(stage)), "%.2f",
               evaluation.error(stage, false) * degrees, evaluation.error(stage, true) * degrees,
@@ -74,7 +74,7 @@ void print_outputs(const Evaluation& evaluation) {
   for (const auto& [source, name] : sources)
     print_row("jerk, " + std::string(name), "%.0f", evaluation.jerk(source, false),
               evaluation.jerk(source, true),
-              source == Source::truth ? "how abruptly joints move, rad/s^3" : "");
+              source == Source::truth ? "how abruptly joints move in the clips, rad/s^3" : "");
   print_row("foot slide, captured", "%.0f", evaluation.foot_slide(Source::truth, false),
             evaluation.foot_slide(Source::truth, true),
             "mm the standing foot travels per stance in the clips");

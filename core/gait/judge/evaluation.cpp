@@ -54,9 +54,13 @@ class Evaluator {
     if (!model_->body)
       throw Error("model " + model_->name + ": expected a model of a body to evaluate on clips");
     const Body& body = *model_->body;
-    for (const int joint : body.output_joints) {
+    for (std::size_t i = 0; i < body.output_joints.size(); ++i) {
+      const int joint = body.output_joints[i];
+      const std::vector<int>& modelled = model_->output.modelled;
+      const bool moves = std::any_of(modelled.begin(), modelled.end(),
+                                     [&](int value) { return value / 3 == static_cast<int>(i); });
       evaluation_.output_names.push_back(body.skeleton.joints[joint].name);
-      evaluation_.counted.push_back(body.roles[joint] != Role::hips);
+      evaluation_.counted.push_back(body.roles[joint] != Role::hips && moves);
     }
     const auto styles = static_cast<Eigen::Index>(model_->styles.size());
     evaluation_.styles = model_->styles;

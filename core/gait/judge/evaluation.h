@@ -52,7 +52,7 @@ struct Evaluation {
   std::vector<EvaluatedClip> clips;
   std::vector<std::string> skipped;        // clips with too few steps, each with the reason
   std::vector<std::string> output_names;   // streams
-  std::vector<bool> counted;               // streams in the mean error: all but the hips
+  std::vector<bool> counted;               // streams in the mean error: all that move but the hips
   std::vector<std::string> styles;         // the model's
   Eigen::MatrixXi confusion;               // true style by recognised style, frames
   double calibration_error = 0;            // of style posteriors, 0 to 1

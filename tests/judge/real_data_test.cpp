@@ -1,0 +1,108 @@
+// What the whole chain reaches on real captured walks, with the bounds the project has set itself.
+// Known figures of other methods on the same clips are beside the bounds.
+#include <gtest/gtest.h>
+
+#include <numbers>
+
+#include "gait/judge/evaluation.h"
+#include "gait/judge/walk_model.h"
+#include "judge/real_walks.h"
+#include "shared_data.h"
+
+namespace gait::testing {
+namespace {
+
+constexpr double degrees = 180 / std::numbers::pi;
+
+Evaluation learn_and_judge(const std::vector<Walk>& seen, const std::vector<Walk>& unseen,
+                           const SelectionOptions& options = {}) {
+  Selected selected = select_walk_model(walk_sequences(seen, {}), options);
+  return evaluate(std::make_shared<const Model>(std::move(selected.model)), unseen, {});
+}
+
+double error(const Evaluation& judged, Stage stage) { return judged.error(stage, false) * degrees; }
+
+void record(const Evaluation& judged) {
+  const auto note = [](const char* name, double value) {
+    ::testing::Test::RecordProperty(name, std::to_string(value));
+    std::printf("  %-20s %.4f\n", name, value);
+  };
+  note("step_accuracy", judged.step_accuracy(false));
+  note("step_accuracy_pooled", judged.step_accuracy(true));
+  note("style_accuracy", judged.style_accuracy(false));
+  for (const Stage stage : stages)
+    note(("error_" + std::string(stage_name(stage))).c_str(), error(judged, stage));
+  note("path_ratio", judged.path_ratio(false));
+}
+
+bool learnt_from(const std::string& name) { return bandai_take(name) <= 5; }
+bool judged_on(const std::string& name) { return bandai_take(name) > 5; }
+
+TEST(RealDataSlow, five_states_recognise_steps_and_styles_and_each_stage_comes_closer) {
+  GAIT_NEEDS_SHARED_DATA("bandai-namco-2");
+  SelectionOptions options;
+  options.learning.states = 5;
+  options.regularisation = 30;
+  options.rounds = 0;
+  const Evaluation judged =
+      learn_and_judge(real_walks("bandai-namco-2", learnt_from, bandai_style),
+                      real_walks("bandai-namco-2", judged_on, bandai_style), options);
+  record(judged);
+  EXPECT_GE(judged.step_accuracy(false), 0.955);
+  EXPECT_GE(judged.step_accuracy(true), 0.95);
+  EXPECT_GE(judged.style_accuracy(false), 0.97);
+  EXPECT_GT(error(judged, Stage::mean_pose), error(judged, Stage::state_means));
+  EXPECT_GT(error(judged, Stage::state_means), error(judged, Stage::mapped));
+  EXPECT_GT(error(judged, Stage::mapped), error(judged, Stage::synthesised));
+  EXPECT_LE(error(judged, Stage::synthesised), 3.95)
+      << "nearest neighbours with history: 4.56, ridge regression with history: 5.01";
+}
+
+TEST(RealDataSlow, the_default_is_closer_still_and_half_as_jerky_as_the_mapping) {
+  GAIT_NEEDS_SHARED_DATA("bandai-namco-2");
+  const Evaluation judged = learn_and_judge(real_walks("bandai-namco-2", learnt_from, bandai_style),
+                                            real_walks("bandai-namco-2", judged_on, bandai_style));
+  record(judged);
+  EXPECT_LE(error(judged, Stage::synthesised), 3.75);
+  EXPECT_LE(error(judged, Stage::synthesised), error(judged, Stage::mapped) + 0.05);
+  EXPECT_LE(judged.jerk(Source::synthesised, false), 0.5 * judged.jerk(Source::mapped, false));
+  EXPECT_EQ(judged.delay_frames, 0) << "no look-ahead";
+}
+
+TEST(RealDataSlow, another_take_by_another_actor_is_found_from_one_example_per_style) {
+  GAIT_NEEDS_SHARED_DATA("bandai-namco-1");
+  const Evaluation judged = learn_and_judge(
+      real_walks(
+          "bandai-namco-1", [](const std::string& name) { return bandai_take(name) == 1; },
+          bandai_style),
+      real_walks(
+          "bandai-namco-1", [](const std::string& name) { return bandai_take(name) == 2; },
+          bandai_style));
+  record(judged);
+  EXPECT_LE(error(judged, Stage::synthesised), 8.9)
+      << "nearest neighbours with history: 8.9, ridge regression: 10.3, mean pose: 13.3";
+}
+
+TEST(RealDataSlow, two_strangers_are_found_from_eight_walkers_and_their_feet_carry_them) {
+  GAIT_NEEDS_SHARED_DATA("cmu-walks");
+  std::vector<std::string> subjects;
+  const auto subject_of = [](const std::string& name) { return name.substr(0, name.find('_')); };
+  for (const Walk& walk : real_walks("cmu-walks", [](const std::string&) { return true; })) {
+    const std::string subject = subject_of(std::filesystem::path(walk.clip.name).filename());
+    if (subjects.empty() || subjects.back() != subject) subjects.push_back(subject);
+  }
+  ASSERT_EQ(subjects.size(), 10u);
+  const auto is_stranger = [&](const std::string& name) {
+    return subject_of(name) == subjects[8] || subject_of(name) == subjects[9];
+  };
+  const Evaluation judged = learn_and_judge(
+      real_walks("cmu-walks", [&](const std::string& name) { return !is_stranger(name); }),
+      real_walks("cmu-walks", is_stranger));
+  record(judged);
+  EXPECT_LT(error(judged, Stage::synthesised), error(judged, Stage::state_means));
+  EXPECT_LT(error(judged, Stage::synthesised), error(judged, Stage::mean_pose));
+  EXPECT_GT(judged.step_accuracy(false), 0.85);
+}
+
+}  // namespace
+}  // namespace gait::testing
