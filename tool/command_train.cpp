@@ -108,6 +108,7 @@ Trained learn_from(const TrainOptions& options, const Interrupt& interrupt) {
   origin.comment = options.comment;
   origin.synthetic = options.synthetic;
   trained.selected = select_walk_model(trained.walks, selection, origin);
+  add_style_space(trained.selected.model, trained.read.walks, {}, trained.read.roles);
   interrupt.check();
   // Where the clips lay says something of this machine and nothing of the model.
   for (std::string& clip : trained.selected.model.training.clips)

@@ -26,7 +26,9 @@ Model make_demo_model(int threads) {
   origin.name = demo_model_name;
   origin.comment = corpus_notice;
   origin.synthetic = true;
-  return select_walk_model(walk_sequences(walks, {}), options, origin).model;
+  Model model = select_walk_model(walk_sequences(walks, {}), options, origin).model;
+  add_style_space(model, walks);
+  return model;
 }
 
 Model model_named(const std::string& name_or_path) {
