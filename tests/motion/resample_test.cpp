@@ -102,7 +102,8 @@ TEST(Resample, a_captured_walk_at_thirty_and_back_stays_within_what_a_frame_can_
     double sum = 0;
     for (int frame = 0; frame < back.frames(); ++frame)
       sum += angle_between(back.pose(frame)[joint], clip.pose(frame)[joint]);
-    EXPECT_LT(sum / back.frames(), 0.01) << name;  // 0.6 degrees, of which most is the capture's noise
+    EXPECT_LT(sum / back.frames(), 0.01)
+        << name;  // 0.6 degrees, of which most is the capture's noise
   }
 }
 
