@@ -11,8 +11,6 @@ namespace gait {
 namespace {
 
 constexpr double lookahead_seconds = 0.2;
-// Slower than this the weights of differences no longer grow: who stands would never arrive.
-constexpr float slowest_rate = 0.3f;
 // However a performer walked, the walk that goes on is one that the model knows.
 constexpr float slowest_tempo = 2, fastest_tempo = 0.5f;
 
@@ -51,10 +49,8 @@ StepWalker::StepWalker(std::shared_ptr<const Model> model, const StepWalkerSetti
                   settings.future.value_or(frames_in(lookahead_seconds, model_->frame_rate))),
       past_(std::max(0, settings.past.value_or(frames_in(model_->play.past, model_->frame_rate)))),
       places_(static_cast<std::size_t>(trajectory_.delay()) + 1),
-      gaussian_{Eigen::VectorXf::Zero(3 * tables_->values),
-                Eigen::VectorXf::Ones(3 * tables_->values)},
-      rates_(Eigen::VectorXf::Ones(tables_->styles)),
-      mixed_(rates_),
+      gaussian_(tables_, period_),
+      given_(Eigen::VectorXf::Zero(tables_->styles)),
       values_(tables_->mean),
       means_(tables_->mean) {
   find_joints();
@@ -135,8 +131,8 @@ void StepWalker::enter(const StepPlace& place, std::span<const float> weights) n
   pace_ = 1;
   if (weights.size() == tables_->can_walk.size() && !model_->styles.empty()) {
     for (std::size_t i = 0; i < weights.size(); ++i)
-      mixed_[static_cast<Eigen::Index>(i)] = tables_->can_walk[i] ? weights[i] : 0.0f;
-    mix_.set({mixed_.data(), weights.size()});
+      given_[static_cast<Eigen::Index>(i)] = tables_->can_walk[i] ? weights[i] : 0.0f;
+    mix_.set({given_.data(), weights.size()});
   }
   mix_.arrive();
   durations_.set_tempo(1);
@@ -225,59 +221,11 @@ void StepWalker::move() noexcept {
   }
 }
 
-// Half-way between two states' centres the Gaussian is half the one and half the other.
 void StepWalker::push(const Place& place) noexcept {
-  const auto first = static_cast<std::size_t>(tables_->first_state[place.label]);
-  const auto last = static_cast<std::size_t>(tables_->first_state[place.label + 1]) - 1;
-  const float duration = durations_.of(place.label);
-  // A state's mean is that of frames that begin within it: half a frame before its centre.
-  const float at =
-      place.standing ? place.progress : place.progress + 0.5f * pace_ * period_ / duration;
-  rates_ = tables_->durations.row(place.label).transpose() * (pace_ / duration);
-  if (place.standing) rates_.setZero();
-
-  std::size_t a = first, b = first;
-  float a_centre = tables_->states[a].centre, b_centre = a_centre;
-  if (at < a_centre) {
-    if (place.before != LabelQueue::none) {
-      a = static_cast<std::size_t>(tables_->first_state[place.before + 1]) - 1;
-      a_centre = tables_->states[a].centre - 1;
-    }
-  } else {
-    while (a < last && tables_->states[a + 1].centre <= at) ++a;
-    a_centre = tables_->states[a].centre;
-    b = a, b_centre = a_centre;
-    if (a < last) {
-      b = a + 1;
-      b_centre = tables_->states[b].centre;
-    } else if (const int next = queue_.peek(place.label); next != LabelQueue::none) {
-      b = static_cast<std::size_t>(tables_->first_state[next]);
-      b_centre = 1 + tables_->states[b].centre;
-    }
-  }
-  const float way = b_centre > a_centre ? (at - a_centre) / (b_centre - a_centre) : 0.0f;
-  gaussian_.mean.setZero();
-  gaussian_.variance.setZero();
-  add_state(static_cast<int>(a), 1 - way);
-  if (b != a && way > 0) add_state(static_cast<int>(b), way);
-  trajectory_.push(gaussian_);
-}
-
-// Differences per frame grow with the speed at which the states are walked through.
-void StepWalker::add_state(int index, float share) noexcept {
-  const WalkedState& state = tables_->states[static_cast<std::size_t>(index)];
-  const Eigen::Index values = tables_->values;
-  const float rate = std::max(slowest_rate, rates_.dot(mix_.weights()));
-  float variance_share = share;
-  mixed_ = share * mix_.weights();
-  for (Eigen::Index part = 0; part < 3; ++part) {
-    gaussian_.mean.segment(part * values, values).noalias() +=
-        state.means.middleRows(part * values, values) * mixed_;
-    gaussian_.variance.segment(part * values, values) +=
-        variance_share * state.variances.segment(part * values, values);
-    mixed_.array() *= rates_.array();
-    variance_share *= rate * rate;
-  }
+  const float duration = durations_.of(place.label) / pace_;
+  trajectory_.push(gaussian_.at({place.label, place.before, queue_.peek(place.label),
+                                 place.progress, place.standing ? 0.0f : duration},
+                                mix_.weights()));
 }
 
 void StepWalker::advance() noexcept {

@@ -26,6 +26,7 @@
 #include "gait/model/model.h"
 #include "gait/play/label_durations.h"
 #include "gait/play/label_queue.h"
+#include "gait/play/step_gaussian.h"
 #include "gait/play/step_tables.h"
 #include "gait/play/stream_controls.h"
 #include "gait/play/style_mix.h"
@@ -123,7 +124,6 @@ class StepWalker {
   Place back(Place place, float seconds) const noexcept;
   void move() noexcept;
   void push(const Place& place) noexcept;
-  void add_state(int state, float share) noexcept;
   void show() noexcept;
   float phase_of(const Place& place) const noexcept;
   const Place& shown() const noexcept { return places_[static_cast<std::size_t>(newest_)]; }
@@ -145,8 +145,8 @@ class StepWalker {
   int newest_ = 0;
   std::optional<int> entered_;
 
-  OutputGaussian gaussian_;
-  Eigen::VectorXf rates_, mixed_;  // scratch: per style
+  StepGaussian gaussian_;
+  Eigen::VectorXf given_;  // scratch: per style
   Eigen::VectorXf values_, means_;
   std::vector<Joint> joints_;
   std::vector<Eigen::Quaternionf> references_, pose_;
