@@ -14,10 +14,10 @@ namespace {
 
 std::vector<CadencePoint> points_on(double scale, double power, double spread = 0) {
   std::mt19937 random(3);
-  std::normal_distribution<double> noise(0, spread);
+  std::normal_distribution<double> noise;
   std::vector<CadencePoint> points;
   for (double v = 0.9; v < 2.3; v += 0.05)
-    points.push_back({v, scale * std::pow(v, power) * std::exp(spread > 0 ? noise(random) : 0)});
+    points.push_back({v, scale * std::pow(v, power) * std::exp(spread * noise(random))});
   return points;
 }
 
