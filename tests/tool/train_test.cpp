@@ -267,11 +267,12 @@ TEST(Train, joints_states_rate_and_history_are_as_asked) {
 
 TEST(Train, interrupted_it_ends_with_one_and_leaves_no_model) {
   const TestFolder folder;
-  // Enough to be at work for a while.
+  // Enough to be at work for a while. In the foreground timeout signals once; a second would kill.
   ASSERT_EQ(run_tool({"corpus", folder / "walks"}).exit_code, 0);
-  const std::string command = "timeout --preserve-status -s INT 1 '" + std::string(GAIT_TOOL) +
-                              "' train '" + folder / "walks" + "' --states 20 -o '" +
-                              folder / "m.gait" + "' 2> '" + folder / "said" + "'";
+  const std::string command = "timeout --foreground --preserve-status -s INT 1 '" +
+                              std::string(GAIT_TOOL) + "' train '" + folder / "walks" +
+                              "' --states 20 -o '" + folder / "m.gait" + "' 2> '" +
+                              folder / "said" + "'";
   const int status = std::system(command.c_str());
   ASSERT_TRUE(WIFEXITED(status));
   EXPECT_EQ(WEXITSTATUS(status), 1);
