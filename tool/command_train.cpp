@@ -12,6 +12,7 @@
 #include "commands.h"
 #include "gait/error.h"
 #include "gait/judge/walk_model.h"
+#include "gait/judge/walks_over_speed.h"
 #include "gait/learn/parallel.h"
 #include "gait/model/model_file.h"
 #include "gait/motion/rest_calibration.h"
@@ -109,6 +110,10 @@ Trained learn_from(const TrainOptions& options, const Interrupt& interrupt) {
   origin.synthetic = options.synthetic;
   trained.selected = select_walk_model(trained.walks, selection, origin);
   add_style_space(trained.selected.model, trained.read.walks, {}, trained.read.roles);
+  interrupt.check();
+  SpeedOptions speeds;
+  speeds.roles = trained.read.roles;
+  add_speed_spaces(trained.selected.model, trained.read.walks, speeds);
   interrupt.check();
   // Where the clips lay says something of this machine and nothing of the model.
   for (std::string& clip : trained.selected.model.training.clips)

@@ -30,6 +30,7 @@ double highest(const SpeedSpace& subject) {
 struct Lines {
   const SpeedSpace& subject;
   const Eigen::VectorXd &intercept, &slope, &standing;
+  const Eigen::MatrixXd& projected;
 };
 
 std::vector<Lines> all_lines(const Model& model, const std::string& only) {
@@ -40,10 +41,11 @@ std::vector<Lines> all_lines(const Model& model, const std::string& only) {
     known += (known.empty() ? "" : ", ") + subject.subject;
     if (!only.empty() && subject.subject != only) continue;
     if (shared && subject.shared.intercept.size() > 0)
-      lines.push_back(
-          {subject, subject.shared.intercept, subject.shared.slope, subject.shared.standing});
+      lines.push_back({subject, subject.shared.intercept, subject.shared.slope,
+                       subject.shared.standing, subject.shared.projected});
     else if (!shared)
-      lines.push_back({subject, subject.intercept, subject.slope, subject.standing});
+      lines.push_back(
+          {subject, subject.intercept, subject.slope, subject.standing, subject.projected});
   }
   if (lines.empty())
     throw Error("model " + model.name + ": no subject is called '" + only + "'; it has " + known);
@@ -68,6 +70,10 @@ void add_lines(Panel& panel, const Lines& lines, Eigen::Index score, std::size_t
                           3,
                           {at(subject.slowest), at(subject.fastest)}});
   panel.series.push_back({"", colour, Stroke::none, Marker::ring, 2, {standing}});
+  Series cycles{"", colour, Stroke::none, Marker::disc, 1, {}};
+  for (int i = 0; i < subject.cycles; ++i)
+    cycles.points.push_back({subject.speeds[i], lines.projected(score, i)});
+  panel.series.push_back(std::move(cycles));
 }
 
 std::string law_text(double scale, double power) {
@@ -109,8 +115,8 @@ Chart speed_figure(const Model& model, const std::string& subject) {
     chart.panels.push_back(std::move(panel));
   }
   chart.note =
-      "After G04 fig. 4 to 6. Unbroken: over the captured speeds; dotted: down to standing (ring) "
-      "and on to 10 km/h.";
+      "After G04 fig. 4 to 6. Discs: captured cycles. Unbroken: over the captured speeds; dotted: "
+      "down to standing (ring) and on to 10 km/h.";
   return chart;
 }
 
@@ -138,6 +144,10 @@ Chart frequency_figure(const std::shared_ptr<const Model>& model) {
          law_points(subject.slowest, subject.fastest, fitted)});
     panel.series.push_back(
         {"", colour, Stroke::solid, Marker::none, 1.2, law_points(0, highest(subject), fitted)});
+    Series cycles{"", colour, Stroke::none, Marker::disc, 1, {}};
+    for (int i = 0; i < subject.cycles; ++i)
+      cycles.points.push_back({subject.speeds[i], subject.frequencies[i]});
+    panel.series.push_back(std::move(cycles));
     walker.set_subject(subject.subject);
     const auto of_feet = [&](double v) {
       walker.set_speed(static_cast<float>(v * subject.leg_length));
@@ -153,7 +163,8 @@ Chart frequency_figure(const std::shared_ptr<const Model>& model) {
   chart.panels.push_back(std::move(panel));
   chart.panel_width = 900, chart.panel_height = 520;
   chart.note =
-      "After G04 fig. 7. Thick: over the captured speeds; dotted: the frequency at which the feet "
+      "After G04 fig. 7. Discs: captured cycles. Thick: over the captured speeds; dotted: the "
+      "frequency at which the feet "
       "travel at V (law feet).";
   return chart;
 }

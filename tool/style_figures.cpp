@@ -99,16 +99,15 @@ Chart scores_figure(const Model& model) {
     panel.y.label = score_label(styles.space, score);
     panel.rules = {0};
     Series mean{"mean", ink, Stroke::none, Marker::disc, 2, {}};
+    Series cycles{"cycle", line_colour(4), Stroke::none, Marker::ring, 1, {}};
     for (std::size_t i = 0; i < walking.styles.size(); ++i) {
       const auto x = static_cast<double>(i);
       const Variation& values =
           styles.styles[walking.styles[i]].scores[static_cast<std::size_t>(score)];
-      panel.series.push_back({"range of the cycles",
-                              line_colour(4),
-                              Stroke::solid,
-                              Marker::none,
-                              2.5,
-                              {{x, values.lowest}, {x, values.highest}}});
+      const StyleCycles& style = styles.styles[walking.styles[i]];
+      for (int cycle = 0; cycle < style.cycles; ++cycle)
+        cycles.points.push_back(
+            {x + 0.5 * ((cycle + 0.5) / style.cycles - 0.5), style.projected(score, cycle)});
       panel.series.push_back(
           {"a deviation each way",
            line_colour(0),
@@ -118,6 +117,7 @@ Chart scores_figure(const Model& model) {
            {{x, values.mean - values.deviation}, {x, values.mean + values.deviation}}});
       mean.points.push_back({x, values.mean});
     }
+    panel.series.push_back(std::move(cycles));
     panel.series.push_back(std::move(mean));
     fit_y(panel);
     chart.panels.push_back(std::move(panel));

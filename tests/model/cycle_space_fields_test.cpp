@@ -37,6 +37,8 @@ Model model_with_spaces() {
     style.duration = {1.1, 0.05, 0.1, 1.0, 1.2};
     style.correlation = Eigen::MatrixXd::Identity(4, 4);
     style.correlation(1, 0) = style.correlation(0, 1) = 1.0 / 3;
+    style.projected = Eigen::MatrixXd::Constant(3, style.cycles, 0.25);
+    style.durations = Eigen::VectorXd::LinSpaced(style.cycles, 1.0, 1.2);
     styles.styles.push_back(style);
   }
   model.style_space = styles;
@@ -51,11 +53,15 @@ Model model_with_spaces() {
     speed.slope = Eigen::Vector2d(1.5, 1.0 / 7);
     speed.standing = Eigen::Vector2d(-1, 0.3);
     speed.slowest = 0.9, speed.fastest = 2.3;
+    speed.speeds = Eigen::VectorXd::LinSpaced(12, 0.9, 2.3);
+    speed.frequencies = Eigen::VectorXd::LinSpaced(12, 0.7, 1.1);
+    speed.projected = Eigen::MatrixXd::Constant(2, 12, 1.0 / 3);
     speed.frequency_scale = 0.75, speed.frequency_power = 0.41;
     model.speed_spaces.push_back(speed);
   }
   model.speed_spaces[1].shared = {Eigen::Vector4d::Ones(), Eigen::Vector4d::Zero(),
-                                  Eigen::Vector4d::Constant(0.2)};
+                                  Eigen::Vector4d::Constant(0.2),
+                                  Eigen::MatrixXd::Constant(4, 12, 0.1)};
   return model;
 }
 
@@ -107,6 +113,15 @@ TEST(CycleSpaceFields, that_nobody_could_walk_in_are_named) {
          correlation(1, 0) = correlation(0, 1) = correlation(2, 0) = correlation(0, 2) = 0.9;
          correlation(2, 1) = correlation(1, 2) = -0.9;
        }},
+      {"style_space.styles[0].projected",
+       [](Model& m) { m.style_space->styles[0].projected.resize(2, 5); }},
+      {"style_space.styles[1].durations",
+       [](Model& m) { m.style_space->styles[1].durations.resize(2); }},
+      {"speed_spaces[0].speeds", [](Model& m) { m.speed_spaces[0].speeds.resize(3); }},
+      {"speed_spaces[1].frequencies", [&](Model& m) { m.speed_spaces[1].frequencies[2] = nan; }},
+      {"speed_spaces[0].projected", [](Model& m) { m.speed_spaces[0].projected.resize(3, 12); }},
+      {"speed_spaces[1].shared.projected",
+       [](Model& m) { m.speed_spaces[1].shared.projected.resize(4, 3); }},
       {"speed_spaces[1].leg_length", [](Model& m) { m.speed_spaces[1].leg_length = 0; }},
       {"speed_spaces[0].slope", [](Model& m) { m.speed_spaces[0].slope.resize(5); }},
       {"speed_spaces[0].fastest", [](Model& m) { m.speed_spaces[0].fastest = 0.1; }},

@@ -154,11 +154,13 @@ inline void expect_same(const Variation& a, const Variation& b) {
 }
 
 inline void expect_same(const StyleCycles& a, const StyleCycles& b) {
-  const auto& [cycles, scores, duration, correlation] = a;
+  const auto& [cycles, scores, duration, correlation, projected, durations] = a;
   expect_same(cycles, b.cycles);
   expect_same(scores, b.scores);
   expect_same(duration, b.duration);
   expect_same(correlation, b.correlation);
+  expect_same(projected, b.projected);
+  expect_same(durations, b.durations);
 }
 
 inline void expect_same(const StyleSpace& a, const StyleSpace& b) {
@@ -170,7 +172,7 @@ inline void expect_same(const StyleSpace& a, const StyleSpace& b) {
 
 inline void expect_same(const SpeedSpace& a, const SpeedSpace& b) {
   const auto& [subject, leg_length, space, cycles, intercept, slope, standing, slowest, fastest,
-               frequency_scale, frequency_power, shared] = a;
+               speeds, frequencies, projected, frequency_scale, frequency_power, shared] = a;
   expect_same(subject, b.subject);
   expect_same(leg_length, b.leg_length);
   expect_same(space, b.space);
@@ -180,12 +182,16 @@ inline void expect_same(const SpeedSpace& a, const SpeedSpace& b) {
   expect_same(standing, b.standing);
   expect_same(slowest, b.slowest);
   expect_same(fastest, b.fastest);
+  expect_same(speeds, b.speeds);
+  expect_same(frequencies, b.frequencies);
+  expect_same(projected, b.projected);
   expect_same(frequency_scale, b.frequency_scale);
   expect_same(frequency_power, b.frequency_power);
-  const auto& [shared_intercept, shared_slope, shared_standing] = shared;
+  const auto& [shared_intercept, shared_slope, shared_standing, shared_projected] = shared;
   expect_same(shared_intercept, b.shared.intercept);
   expect_same(shared_slope, b.shared.slope);
   expect_same(shared_standing, b.shared.standing);
+  expect_same(shared_projected, b.shared.projected);
 }
 
 inline void expect_same(const Model& a, const Model& b) {

@@ -5,7 +5,6 @@
 #include <algorithm>
 #include <filesystem>
 #include <memory>
-#include <random>
 #include <string>
 #include <vector>
 
@@ -36,25 +35,11 @@ inline StyledWalks learnt_from(std::vector<Walk> walks) {
   return {std::move(walks), std::move(model)};
 }
 
-// Every joint of a clip turned a little at random, as if a sensor had measured it.
-inline void tremble(Clip& clip, double deviation, std::uint64_t seed) {
-  std::mt19937_64 random(seed);
-  std::normal_distribution<double> normal(0, deviation);
-  for (int frame = 0; frame < clip.frames(); ++frame)
-    for (Eigen::Quaterniond& rotation : clip.pose(frame))
-      rotation *= exponential_map<double>({normal(random), normal(random), normal(random)});
-}
-
-// The shoulders of the built-in walks do not move at all, which no sensor would say of anybody: a
-// recogniser that was taught so takes the slightest movement of theirs for another walk. So here
-// they were captured with 0.02 degrees of noise.
 inline const StyledWalks& corpus_walks() {
   static const StyledWalks learnt = [] {
     std::vector<Walk> walks;
-    for (CorpusWalk& walk : make_corpus()) {
-      tremble(walk.clip, 3e-4, walks.size() + 1);
+    for (CorpusWalk& walk : make_corpus())
       walks.push_back({std::move(walk.clip), walk.style, {}, {}, std::move(walk.contacts)});
-    }
     return learnt_from(std::move(walks));
   }();
   return learnt;

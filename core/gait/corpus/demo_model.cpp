@@ -2,6 +2,7 @@
 
 #include "gait/corpus/corpus.h"
 #include "gait/judge/walk_model.h"
+#include "gait/judge/walks_over_speed.h"
 #include "gait/model/model_file.h"
 
 namespace gait {
@@ -28,6 +29,11 @@ Model make_demo_model(int threads) {
   origin.synthetic = true;
   Model model = select_walk_model(walk_sequences(walks, {}), options, origin).model;
   add_style_space(model, walks);
+
+  std::vector<Walk> over_speed;
+  for (CorpusWalk& walk : make_speed_walks())
+    over_speed.push_back({std::move(walk.clip), {}, walk.subject, {}, std::move(walk.contacts)});
+  add_speed_spaces(model, over_speed);
   return model;
 }
 

@@ -107,6 +107,8 @@ SharedLines fit_lines(const CycleSpace& space, const Subject& subject, const Sha
   lines.slope = space.components.transpose() * slope;
   lines.intercept = scores_of(space, mean) - mean_speed * lines.slope;
   lines.standing = scores_of(space, subject.standing);
+  lines.projected =
+      space.components.transpose() * (subject.cycles.transpose().colwise() - space.mean);
   return lines;
 }
 
@@ -127,6 +129,8 @@ SpeedSpace own_space(const Subject& subject, const SharedSlope& shared,
   result.intercept = lines.intercept;
   result.slope = lines.slope;
   result.standing = lines.standing;
+  result.projected = lines.projected;
+  result.speeds = subject.speeds;
   return result;
 }
 
@@ -187,6 +191,9 @@ SpeedSpaces learn_speed_spaces(const std::vector<SubjectCycles>& captured, const
     SpeedSpace space = own_space(subject, slope, joints, options);
     const FrequencyLaw law = fit_frequency_law(cadence_points(subject.captured),
                                                LawBefore{result.law, options.held_to_shared_law});
+    space.frequencies.resize(space.cycles);
+    for (int i = 0; i < space.cycles; ++i)
+      space.frequencies[i] = 1 / subject.captured.cycles[i].duration;
     space.frequency_scale = law.scale;
     space.frequency_power = law.power;
     if (result.shared)

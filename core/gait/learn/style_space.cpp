@@ -53,6 +53,8 @@ StyleCycles style_cycles(const Cycles& cycles, const CycleSpace& space) {
     style.scores.push_back(style.cycles == 0 ? Variation{} : variation_over(cycles, scores.col(i)));
   if (style.cycles > 0) style.duration = variation_over(cycles, durations);
   style.correlation = correlation_of(scores, durations);
+  style.projected = scores.transpose();
+  style.durations = std::move(durations);
   return style;
 }
 

@@ -45,12 +45,32 @@ void set_durations(Model& model, const ObservationSet& observed) {
   }
 }
 
+// Variance that any sensor gives each entry of an observation, scaled as they are. A joint that
+// rests at another angle in each style, and trembles in none, would otherwise be all that styles
+// are told by, and the slightest movement of it another style.
+Eigen::VectorXd sensor_variance(const Model& model) {
+  constexpr double sensor_deviation = 3e-4;  // radians: 0.02 degrees, the quiet of a still suit
+  std::vector<double> of_value;
+  for (const Stream& stream : model.inputs)
+    of_value.insert(of_value.end(), stream.size,
+                    stream.kind == StreamKind::rotation ? sensor_deviation * sensor_deviation : 0);
+  const int statics = model.input.statics();
+  Eigen::VectorXd variance(model.input.size());
+  for (int i = 0; i < variance.size(); ++i) {
+    const double entries = i < statics ? 1 : 2;  // a difference has the noise of two frames
+    variance[i] = entries * of_value[model.input.modelled[i % statics]] /
+                  (model.input_scaling.deviation[i] * model.input_scaling.deviation[i]);
+  }
+  return variance;
+}
+
 }  // namespace
 
 void set_states(Model& model, const StateTable& table,
                 const std::vector<StateStatistics>& statistics, const std::vector<double>& stay,
                 const Eigen::VectorXd& target, double regularisation) {
   const int inputs = model.input.size();
+  const Eigen::VectorXd sensor = sensor_variance(model);
   for (std::size_t i = 0; i < model.labels.size(); ++i) {
     Label& label = model.labels[i];
     label.states.resize(table.states[i]);  // what was learnt of trajectories stays
@@ -74,6 +94,7 @@ void set_states(Model& model, const StateTable& table,
                 : state.mean;
       state.style_covariance = regularised(counted.within_style_covariance(inputs), counted.count,
                                            target.head(inputs), regularisation);
+      state.style_covariance.diagonal() += sensor;
     }
   }
 }

@@ -36,6 +36,8 @@ struct StyleCycles {
   std::vector<Variation> scores;  // per kept component
   Variation duration;             // seconds
   Eigen::MatrixXd correlation;    // between scores and, last, duration; from cycle to cycle
+  Eigen::MatrixXd projected;      // the cycles themselves: scores by cycles, for whoever looks
+  Eigen::VectorXd durations;      // and their seconds
 };
 
 // All styles in one space.
@@ -48,6 +50,7 @@ struct StyleSpace {
 // Lines of a subject's scores over speed, in a space that subjects share.
 struct SharedLines {
   Eigen::VectorXd intercept, slope, standing;  // as in SpeedSpace; empty: no shared space
+  Eigen::MatrixXd projected;
 };
 
 // One subject's walks over speed (G04 §4), in a space of its own.
@@ -60,6 +63,9 @@ struct SpeedSpace {
   Eigen::VectorXd intercept, slope;  // per kept component
   Eigen::VectorXd standing;          // scores of standing, V = 0
   double slowest = 0, fastest = 0;   // captured V
+  // The cycles themselves, for whoever looks: V, cycles per second, scores by cycles.
+  Eigen::VectorXd speeds, frequencies;
+  Eigen::MatrixXd projected;
   // Cycles per second at V: scale * V^power (G04 eq. 6).
   double frequency_scale = 0, frequency_power = 0;
   SharedLines shared;  // in the model's shared_speed_space

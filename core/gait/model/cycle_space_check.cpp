@@ -61,6 +61,8 @@ void check_style(const StyleCycles& style, int components, const std::string& fi
                                                           Eigen::MatrixXd::Identity(size, size))
               .info() != Eigen::Success)
     fail(field + ".correlation", "correlations: 1 in the diagonal and positive semidefinite");
+  expect_values(style.projected, components, style.cycles, field + ".projected");
+  expect_values(style.durations, style.cycles, 1, field + ".durations");
   if (style.cycles == 0) return;
   expect_within(style.duration.lowest, 1e-3, longest_cycle, field + ".duration.lowest");
   expect_within(style.duration.highest, 1e-3, longest_cycle, field + ".duration.highest");
@@ -90,6 +92,9 @@ void check_speed_space(const SpeedSpace& space, const Model& model, const std::s
   expect_values(space.standing, components, 1, field + ".standing");
   expect_within(space.slowest, 0, fastest_walk, field + ".slowest");
   expect_within(space.fastest, space.slowest, fastest_walk, field + ".fastest");
+  expect_values(space.speeds, space.cycles, 1, field + ".speeds");
+  expect_values(space.frequencies, space.cycles, 1, field + ".frequencies");
+  expect_values(space.projected, components, space.cycles, field + ".projected");
   expect_within(space.frequency_scale, 0, 1000, field + ".frequency_scale");
   expect_within(space.frequency_power, -10, 10, field + ".frequency_power");
   if (space.shared.intercept.size() == 0) return;
@@ -98,6 +103,7 @@ void check_speed_space(const SpeedSpace& space, const Model& model, const std::s
   expect_values(space.shared.intercept, shared, 1, field + ".shared.intercept");
   expect_values(space.shared.slope, shared, 1, field + ".shared.slope");
   expect_values(space.shared.standing, shared, 1, field + ".shared.standing");
+  expect_values(space.shared.projected, shared, space.cycles, field + ".shared.projected");
 }
 
 }  // namespace

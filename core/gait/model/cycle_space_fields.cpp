@@ -44,7 +44,9 @@ Json field_of(const StyleSpace& space) {
     styles.push_back({{"cycles", style.cycles},
                       {"scores", std::move(scores)},
                       {"duration", node(style.duration)},
-                      {"correlation", symmetric_array_node(style.correlation)}});
+                      {"correlation", symmetric_array_node(style.correlation)},
+                      {"projected", array_node(style.projected)},
+                      {"durations", array_node(style.durations)}});
   }
   return {{"space", field_of(space.space)},
           {"cycles_per_style", space.cycles_per_style},
@@ -61,12 +63,16 @@ Json field_of(const SpeedSpace& space) {
                 {"standing", array_node(space.standing)},
                 {"slowest", space.slowest},
                 {"fastest", space.fastest},
+                {"speeds", array_node(space.speeds)},
+                {"frequencies", array_node(space.frequencies)},
+                {"projected", array_node(space.projected)},
                 {"frequency_scale", space.frequency_scale},
                 {"frequency_power", space.frequency_power}};
   if (space.shared.intercept.size() > 0)
     field["shared"] = {{"intercept", array_node(space.shared.intercept)},
                        {"slope", array_node(space.shared.slope)},
-                       {"standing", array_node(space.shared.standing)}};
+                       {"standing", array_node(space.shared.standing)},
+                       {"projected", array_node(space.shared.projected)}};
   return field;
 }
 
@@ -89,6 +95,8 @@ StyleSpace style_space(const ModelField& field) {
       style.scores.push_back(variation_of(score));
     style.duration = variation_of(item["duration"]);
     style.correlation = item["correlation"].symmetric();
+    style.projected = item["projected"].matrix();
+    style.durations = item["durations"].vector();
     space.styles.push_back(std::move(style));
   }
   return space;
@@ -105,11 +113,14 @@ SpeedSpace speed_space(const ModelField& field) {
   space.standing = field["standing"].vector();
   space.slowest = field["slowest"].number();
   space.fastest = field["fastest"].number();
+  space.speeds = field["speeds"].vector();
+  space.frequencies = field["frequencies"].vector();
+  space.projected = field["projected"].matrix();
   space.frequency_scale = field["frequency_scale"].number();
   space.frequency_power = field["frequency_power"].number();
   if (const auto shared = field.find("shared"))
     space.shared = {(*shared)["intercept"].vector(), (*shared)["slope"].vector(),
-                    (*shared)["standing"].vector()};
+                    (*shared)["standing"].vector(), (*shared)["projected"].matrix()};
   return space;
 }
 

@@ -22,6 +22,7 @@ constexpr float strongest_push = 30.0f;  // m/s²: hips in walks stay under 20, 
 constexpr double speed_seconds = 0.015;
 constexpr double travel_seconds = 0.5;
 constexpr double height_seconds = 0.1 / 3;  // 95 % of a height error is gone after 100 ms
+constexpr double deepest = 0.008;           // m: no point sinks further, however fast the walk
 constexpr double same_point = 0.005;        // m
 
 float gain(double frame_rate, double seconds) {
@@ -195,6 +196,7 @@ void RootMotion::move() noexcept {
   velocity_ += change;
   position_ += (velocity_ * period_).cast<double>();
   position_.y() -= height_gain_ * (position_.y() + lowest_);
+  position_.y() = std::max(position_.y(), -static_cast<double>(lowest_) - deepest);
 }
 
 float RootMotion::share_of(Foot foot) const noexcept {

@@ -11,7 +11,8 @@
 // the motion so far, and a soft maximum of them is pinned. As the speeds cross where one point
 // takes over from another, a hand-over moves the root by nothing and bends its speed by little.
 // The direction of travel itself comes from height alone, over half a second: it may be backward
-// or sideways. Ground is at y = 0; the lowest point comes to it within 100 ms.
+// or sideways. Ground is at y = 0; the lowest point comes to it within 100 ms, and is never more
+// than 8 mm below it.
 //
 // Units: metres, seconds, radians; Y up. Nothing allocates after construction.
 #pragma once
