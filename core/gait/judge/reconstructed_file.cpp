@@ -25,25 +25,6 @@ std::vector<int> joined(std::vector<int> a, const std::vector<int>& b) {
   return a;
 }
 
-int in_file(int joint, const std::vector<int>& matched) { return joint < 0 ? -1 : matched[joint]; }
-
-// The body's roles as the file counts its joints.
-JointRoles roles_in_file(const Body& body, const std::vector<int>& matched, int joints) {
-  JointRoles roles;
-  roles.of_joint.assign(joints, Role::none);
-  for (std::size_t joint = 0; joint < matched.size(); ++joint)
-    if (matched[joint] >= 0) roles.of_joint[matched[joint]] = body.roles[joint];
-  const JointRoles mine = body_roles(body);
-  roles.hips = in_file(mine.hips, matched);
-  const auto leg = [&](const Leg& of) {
-    return Leg{in_file(of.thigh, matched), in_file(of.shank, matched), in_file(of.foot, matched),
-               in_file(of.toes, matched)};
-  };
-  roles.left = leg(mine.left);
-  roles.right = leg(mine.right);
-  return roles;
-}
-
 class FileReconstruction {
  public:
   FileReconstruction(std::shared_ptr<const Model> model, const BvhFile& file,
@@ -53,7 +34,7 @@ class FileReconstruction {
     if (calibrate) turn_rest();
     matched_ = match_joints(body_, clip_.skeleton, file.name,
                             joined(body_.input_joints, body_.output_joints));
-    roles_ = roles_in_file(body_, matched_, file.skeleton.size());
+    roles_ = matched_roles(body_, matched_, file.skeleton.size());
     for (const int joint : body_.input_joints) inputs_.push_back(matched_[joint]);
     const int hips = body_roles(body_).hips;
     hips_measured_ = contains(body_.input_joints, hips);

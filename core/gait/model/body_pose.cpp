@@ -74,12 +74,7 @@ BodyPoses body_poses(const Clip& clip, const Body& body, const std::vector<int>&
   BodyPoses poses;
   poses.joints = body.skeleton.size();
   poses.rotations.resize(static_cast<std::size_t>(clip.frames()) * poses.joints);
-  // The roles' joints as the clip counts them.
-  JointRoles roles = body_roles(body);
-  for (int* joint :
-       {&roles.hips, &roles.left.thigh, &roles.left.shank, &roles.left.foot, &roles.left.toes,
-        &roles.right.thigh, &roles.right.shank, &roles.right.foot, &roles.right.toes})
-    if (*joint >= 0) *joint = matched[*joint];
+  const JointRoles roles = matched_roles(body, matched, clip.skeleton.size());
 
   const WorldPoses world = world_poses(clip);
   const int joints = clip.skeleton.size();
@@ -122,6 +117,22 @@ JointRoles body_roles(const Body& body) {
                 roles.joint(Role::left_foot), roles.joint(Role::left_toes)};
   roles.right = {roles.joint(Role::right_thigh), roles.joint(Role::right_shank),
                  roles.joint(Role::right_foot), roles.joint(Role::right_toes)};
+  return roles;
+}
+
+JointRoles matched_roles(const Body& body, const std::vector<int>& matched, int clip_joints) {
+  const auto in_clip = [&](int joint) { return joint < 0 ? -1 : matched[joint]; };
+  const auto leg = [&](const Leg& of) {
+    return Leg{in_clip(of.thigh), in_clip(of.shank), in_clip(of.foot), in_clip(of.toes)};
+  };
+  const JointRoles mine = body_roles(body);
+  JointRoles roles;
+  roles.of_joint.assign(clip_joints, Role::none);
+  for (std::size_t joint = 0; joint < matched.size(); ++joint)
+    if (matched[joint] >= 0) roles.of_joint[matched[joint]] = body.roles[joint];
+  roles.hips = in_clip(mine.hips);
+  roles.left = leg(mine.left);
+  roles.right = leg(mine.right);
   return roles;
 }
 

@@ -45,6 +45,10 @@ BodyPoses body_poses(const Clip& clip, const Body& body, const std::vector<int>&
 // Roles of the body's joints as find_roles gives them for a skeleton.
 JointRoles body_roles(const Body& body);
 
+// The same as the clip counts its joints, `clip_joints` of them; `matched` as match_joints gives
+// it.
+JointRoles matched_roles(const Body& body, const std::vector<int>& matched, int clip_joints);
+
 // A clip of the body with `frames` frames at rest: what place_body fills.
 Clip body_clip(const Body& body, const std::string& name, double frame_rate, int frames);
 

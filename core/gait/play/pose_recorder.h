@@ -1,0 +1,89 @@
+// Pose recorder: frames of a model's body as they come, kept to be played again.
+//
+// A frame is told by its whole pose, or by its inputs and outputs; where the hips are, by itself. A
+// pose or outputs complete a frame, inputs alone only when the next inputs follow; what a frame
+// does not tell stays as it was.
+//
+// Memory grows by blocks of half a minute, up to an hour; nothing that was recorded is moved.
+// Units: metres, seconds, radians; values are rotation vectors relative to the model's references.
+#pragma once
+
+#include <Eigen/Geometry>
+#include <memory>
+#include <span>
+#include <string>
+#include <vector>
+
+#include "gait/model/body_motion.h"
+#include "gait/model/model.h"
+
+namespace gait {
+
+class PoseRecorder {
+ public:
+  static constexpr double longest_seconds = 3600;  // at the model's rate
+
+  // What was recorded, to be made a walk of away from the show.
+  class Recording;
+
+  // Throws Error when the model has no body.
+  explicit PoseRecorder(std::shared_ptr<const Model> model);
+
+  // Each says false, and keeps nothing, when there are not as many values as the model wants, one
+  // is not finite, or the recorder is full. `time`: when it came, seconds on any clock.
+  bool take_pose(std::span<const float> values, double time);
+  bool take_outputs(std::span<const float> values, double time);
+  bool take_inputs(std::span<const float> values, double time);
+  bool take_root(const Eigen::Vector3f& hips, float heading);
+
+  int frames() const { return frames_; }
+  bool full() const { return frames_ >= most_frames_; }
+
+  // Hands over all frames and begins anew.
+  Recording finish();
+  void clear();
+
+ private:
+  struct Block {
+    std::vector<Eigen::Quaternionf> rotations;
+    std::vector<Eigen::Vector3f> hips;
+    std::vector<float> heading;
+  };
+
+  bool take(std::span<const float> values, std::span<const int> joints);
+  bool keep();
+
+  std::shared_ptr<const Model> model_;
+  std::vector<Eigen::Quaternionf> references_;
+  std::vector<int> all_joints_;
+  int block_frames_, most_frames_;
+  std::vector<Block> blocks_;
+  int frames_ = 0;
+  double first_time_ = 0, last_time_ = 0, inputs_time_ = 0;
+  bool inputs_wait_ = false;  // inputs came that no outputs or pose have followed
+  bool root_told_ = false;
+  std::vector<Eigen::Quaternionf> pose_;  // of the frame being told
+  Eigen::Vector3f hips_ = Eigen::Vector3f::Zero();
+  float heading_ = 0;
+};
+
+class PoseRecorder::Recording {
+ public:
+  int frames() const { return frames_; }
+  // The walk, with its contacts and steps. Its rate is that at which frames came, or the model's
+  // where that is what was meant (within a twentieth) or times say nothing. Where no root was told
+  // the feet carry the hips. Takes its time: for a thread of its own.
+  BodyMotion motion(const std::string& name) const;
+
+ private:
+  friend class PoseRecorder;
+  double frame_rate() const;
+
+  std::shared_ptr<const Model> model_;
+  std::vector<Block> blocks_;
+  int block_frames_ = 1, frames_ = 0;
+  double seconds_ = 0;  // from the first frame to the last
+  bool root_told_ = false;
+};
+
+}  // namespace gait
