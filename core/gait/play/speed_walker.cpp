@@ -10,6 +10,7 @@ namespace {
 constexpr float shortest_leg = 0.3f, longest_leg = 1.5f;  // metres
 constexpr double longest_frame = 0.25;                    // seconds
 constexpr float seconds_of_change = 0.7f;                 // of subject or law: about a step
+constexpr float highest_cadence = 8;                      // steps per second
 constexpr float leg_growth = 0.4f;                        // metres per second
 // People start and stop within two steps, about 1 m/s².
 constexpr float most_gain = 0.9f;               // pace per second
@@ -92,6 +93,20 @@ Taken SpeedWalker::set_subject(std::string_view subject) noexcept {
 
 void SpeedWalker::set_law(SpeedLaw law) noexcept { law_ = law; }
 
+Taken SpeedWalker::set_cadence(float steps_per_second) noexcept {
+  if (!std::isfinite(steps_per_second)) return Taken::refused;
+  cadence_ = std::clamp(steps_per_second, 0.f, highest_cadence);
+  return cadence_ == steps_per_second ? Taken::as_given : Taken::clamped;
+}
+
+bool SpeedWalker::scrub(double phase) noexcept {
+  if (!(phase >= 0 && phase < 1)) return false;
+  phase_ = phase;
+  contact_.reset();
+  read_pose();
+  return true;
+}
+
 void SpeedWalker::settle() noexcept {
   change_subjects(1);
   change_leg_length(longest_leg);
@@ -104,6 +119,7 @@ void SpeedWalker::settle() noexcept {
 }
 
 void SpeedWalker::reset() noexcept {
+  contact_.reset();
   speed_per_leg_ = gaining_ = frequency_ = 0;
   phase_ = first_phase;
   read_pose();
@@ -122,7 +138,14 @@ void SpeedWalker::advance(double seconds) noexcept {
     for (const SpeedLaw law : {SpeedLaw::fitted, SpeedLaw::inman, SpeedLaw::feet})
       if (const float weight = laws_[static_cast<std::size_t>(law)]; weight > 0)
         frequency_ += weight * frequency_by(law);
+  if (cadence_ > 0 && !standing()) frequency_ = 0.5f * cadence_;
+  const double before = phase_;
   phase_ += seconds * frequency_;  // eq. 5
+  contact_.reset();
+  if (phase_ >= 1)
+    contact_ = Foot::right;
+  else if (before < 0.5 && phase_ >= 0.5)
+    contact_ = Foot::left;
   phase_ -= std::floor(phase_);
   read_pose();
 }

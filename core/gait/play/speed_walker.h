@@ -11,10 +11,12 @@
 
 #include <array>
 #include <memory>
+#include <optional>
 #include <span>
 #include <string_view>
 #include <vector>
 
+#include "gait/motion/steps.h"
 #include "gait/play/cycle_reader.h"
 #include "gait/play/speed_tables.h"
 
@@ -52,6 +54,12 @@ class SpeedWalker {
 
   // Moves on by `seconds` (at most a quarter of one is believed; not finite or negative: none).
   void advance(double seconds) noexcept;
+  // Shows the cycle at another phase, 0 to 1 (1 left out): forth and back by hand. False, with
+  // nothing changed, for any other number.
+  bool scrub(double phase) noexcept;
+  // Steps per second from now on, whatever the law says and however the feet slide; 0: the law's
+  // again. At most 8.
+  Taken set_cadence(float steps_per_second) noexcept;
   // All controls are reached at once, without transition: a scene begins.
   void settle() noexcept;
   // Stands still, at once; speed and all other controls stay as they were set.
@@ -63,6 +71,8 @@ class SpeedWalker {
   float frequency() const noexcept { return frequency_; }    // cycles per second
   float cadence() const noexcept { return 2 * frequency_; }  // steps per second
   float speed() const noexcept { return speed_per_leg_ * leg_length_; }  // reached by now, m/s
+  // The foot that met the ground during the last advance.
+  std::optional<Foot> contact() const noexcept { return contact_; }
   float speed_of_feet() const noexcept;  // that they travel at over a cycle, m/s
   float leg_length() const noexcept { return leg_length_; }  // reached by now, metres
   // How much larger this walker is than the model's body: what root and offsets are scaled by.
@@ -93,7 +103,9 @@ class SpeedWalker {
   float speed_per_leg_ = 0;  // V
   float gaining_ = 0;        // pace per second
   float frequency_ = 0;
+  float cadence_ = 0;  // steps per second, set by hand; 0: not
   double phase_ = 0;
+  std::optional<Foot> contact_;
   std::vector<Eigen::Quaternionf> pose_;
 };
 

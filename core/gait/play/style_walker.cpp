@@ -237,6 +237,16 @@ double StyleWalker::frequency() const noexcept {
 
 float StyleWalker::cadence() const noexcept { return static_cast<float>(2 * frequency()); }
 
+bool StyleWalker::scrub(double phase) noexcept {
+  if (!(phase >= 0 && phase < 1)) return false;
+  moved_ = true;
+  contact_.reset();
+  phase_ = phase;
+  draw_next(static_cast<int>(phase_ / drawing * static_cast<double>(mean_.size())) + 1);
+  show();
+  return true;
+}
+
 bool StyleWalker::advance(double seconds) noexcept {
   if (!(seconds >= 0) || !std::isfinite(seconds)) return false;
   moved_ = true;

@@ -61,6 +61,10 @@ class StyleWalker {
   // Starts anew at phase 0 with the first cycle of another walk; controls stay.
   void restart(std::uint64_t seed) noexcept;
 
+  // Shows this cycle at another phase, 0 to 1 (1 left out): forth and back by hand. False, with
+  // nothing changed, for any other number.
+  bool scrub(double phase) noexcept;
+
   // Moves on. At most half a cycle at a time: longer is cut short. False, without moving, when
   // `seconds` is negative or not finite.
   bool advance(double seconds) noexcept;

@@ -1,0 +1,43 @@
+// What [gait.pca] needs of either of its walkers: settings that outlive a model, and a walk.
+#pragma once
+
+#include <Eigen/Geometry>
+#include <memory>
+#include <optional>
+#include <span>
+
+#include "gait/motion/steps.h"
+#include "pd/models.h"
+
+namespace gait::pd {
+
+class CycleWalking {
+ public:
+  virtual ~CycleWalking() = default;
+
+  // Walks in this model from now on, at the phase it was at. Throws Error when it cannot.
+  virtual void take(const SharedModel& model) = 0;
+  // A setting of this walker's own; false when it has no such message. Throws Error, with nothing
+  // changed, when it cannot be set. Before there is a model, it is kept.
+  virtual bool set(const Arguments& arguments) = 0;
+  // Every setting as the message that restores it.
+  virtual void dump(Outlet& info) const = 0;
+
+  // Only with a model. At most longest_advance at a time, so that no contact is passed over.
+  static constexpr double longest_advance = 0.1;  // seconds
+  virtual void advance(double seconds) noexcept = 0;
+  virtual void scrub(double phase) noexcept = 0;
+  virtual void reset() noexcept = 0;
+  virtual std::span<const Eigen::Quaternionf> pose() const noexcept = 0;
+  virtual double phase() const noexcept = 0;
+  virtual float cadence() const noexcept = 0;
+  virtual std::optional<Foot> contact() const noexcept = 0;
+  virtual const CycleSpace& space() const noexcept = 0;  // that scores are of
+  // Leg length of the walker, metres, when it is another than the body's; else 0.
+  virtual float leg_length() const noexcept { return 0; }
+};
+
+std::unique_ptr<CycleWalking> make_style_walking();
+std::unique_ptr<CycleWalking> make_speed_walking();
+
+}  // namespace gait::pd

@@ -1,0 +1,31 @@
+// The library's entries. `gait_setup` registers everything; a single object's own set-up, by which
+// Pd loads it when it is reached through a link of the object's name, does the same, so that all
+// objects live in one copy of the library and share its models.
+#include <m_pd.h>
+
+#include "objects.h"
+
+namespace {
+
+void setup_all() {
+  using namespace gait::pd;
+  setup_model();
+  setup_pca();
+  setup_phase();
+}
+
+}  // namespace
+
+#define GAIT_ENTRY(name)                                         \
+  extern "C" __attribute__((visibility("default"))) void name(); \
+  void name() { setup_all(); }
+
+GAIT_ENTRY(gait_setup)
+GAIT_ENTRY(setup_gait0x2emodel)
+GAIT_ENTRY(setup_gait0x2ebvh)
+GAIT_ENTRY(setup_gait0x2eviterbi_tilde)
+GAIT_ENTRY(setup_gait0x2emap)
+GAIT_ENTRY(setup_gait0x2esynth)
+GAIT_ENTRY(setup_gait0x2epca)
+GAIT_ENTRY(setup_gait0x2ephase_tilde)
+GAIT_ENTRY(setup_gait0x2eskeleton)

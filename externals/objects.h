@@ -1,0 +1,10 @@
+// One per object: registers its class with Pd, unless it is registered already.
+#pragma once
+
+namespace gait::pd {
+
+void setup_model();
+void setup_pca();
+void setup_phase();
+
+}  // namespace gait::pd

@@ -1,0 +1,185 @@
+// [gait.pca NAME style|speed]: walks by itself in a space of cycles (T10, G04).
+#include "cycle_walking.h"
+#include "gait/error.h"
+#include "gait/play/cycle_projector.h"
+#include "objects.h"
+#include "pd/ticker.h"
+#include "pose_values.h"
+
+namespace gait::pd {
+
+namespace {
+
+constexpr double longest_jump = 60;  // seconds: what `advance` takes at once
+
+class Pca final : public ModelUser {
+ public:
+  Pca(Box& box, const Arguments& arguments)
+      : ModelUser(box, arguments.size() > 0 ? arguments.text(0) : ""),
+        cold_(box, this, &take_cold<Pca>),
+        pose_(box),
+        info_(box) {
+    arguments.expect_count(0, 2);
+    const std::string kind = arguments.size() > 1 ? arguments.symbol(1) : "style";
+    if (kind != "style" && kind != "speed") arguments.fail_at(1, "style or speed");
+    walking_ = kind == "style" ? make_style_walking() : make_speed_walking();
+    join();
+  }
+
+  void bang(const Arguments&) {
+    if (ready_for_frame()) step(1 / model()->model->frame_rate);
+  }
+  void advance(const Arguments& arguments) {
+    arguments.expect_count(1);
+    const double seconds = arguments.number(0, 0, longest_jump);
+    if (ready_for_frame()) step(seconds);
+  }
+  void start(const Arguments&) { run(true); }
+  void stop(const Arguments&) { run(false); }
+  void number(const Arguments& arguments) {
+    arguments.expect_count(1);
+    run(arguments.flag(0));
+  }
+  void phase(const Arguments& arguments) {
+    arguments.expect_count(1);
+    const double phase = arguments.number(0);
+    if (!ready_for_frame()) return;
+    walking_->scrub(phase - std::floor(phase));
+    show();
+  }
+  // The path turns: whoever puts the walk into the world (the skeleton) turns it.
+  void turn(const Arguments& arguments) {
+    arguments.expect_count(1);
+    turn_ = arguments.number(0, -10, 10);
+    pose_.add(turn_).send("heading");
+  }
+  void reset(const Arguments&) {
+    if (model()) walking_->reset();
+    if (projector_) projector_->reset();
+    leg_sent_ = 0;
+  }
+  void dump(const Arguments&) {
+    walking_->dump(info_);
+    info_.add(turn_).send("turn");
+  }
+  void perf_message(const Arguments&) { perf().report(info_); }
+  void print(const Arguments&) {
+    if (!model()) {
+      post("%s: waiting for %s", box().name(), model_name().c_str());
+      return;
+    }
+    const Model& learnt = *model()->model;
+    std::string styles;
+    for (const std::string& style : learnt.styles) styles += " " + style;
+    post("%s: walks in %s, %d scores, phase %.3f, cadence %.2f;%s", box().name(),
+         learnt.name.c_str(), walking_->space().kept(), walking_->phase(),
+         static_cast<double>(walking_->cadence()), styles.c_str());
+  }
+  void setting(const Arguments& arguments) {
+    if (!walking_->set(arguments)) arguments.fail("no such message");
+  }
+
+  // A walk from elsewhere, projected cycle by cycle.
+  void cold(const Arguments& arguments) {
+    if (arguments.selector() == "pose") {
+      if (!ready_for_frame()) return;
+      if (!arguments.read(given_) || !projector_->add(given_))
+        slow_error().say([&] {
+          return std::string(box().name()) + ": pose: expected " + std::to_string(given_.size()) +
+                 " numbers, got " + std::to_string(arguments.size());
+        });
+    } else if (arguments.selector() == "contact") {
+      arguments.expect_count(1);
+      const std::string foot = arguments.symbol(0);
+      if (foot != "right" && foot != "left") arguments.fail_at(0, "right or left");
+      if (projector_ && projector_->contact(foot == "right" ? Foot::right : Foot::left))
+        info_.add(projector_->scores()).send("projected");
+    } else {
+      arguments.fail("no such message at the right inlet");
+    }
+  }
+
+ private:
+  void take(const SharedModel& model, const SharedModel&) override {
+    walking_->take(model);
+    const Body& body = *model->model->body;
+    values_ = std::make_unique<PoseValues>(body);
+    projector_ = std::make_unique<CycleProjector>(walking_->space(), body);
+    own_ = std::make_unique<CycleProjector>(walking_->space(), body);
+    given_.assign(3 * body.references.size(), 0);
+    pose_.reserve(static_cast<int>(given_.size()));
+    clock_.set_period(1000 / model->model->frame_rate);
+    leg_sent_ = 0;
+  }
+  void say_ready() override { info_.add_text(model_name()).send("ready"); }
+
+  void run(bool on) {
+    if (on == clock_.running()) return;
+    if (on)
+      clock_.start(model() ? 1000 / model()->model->frame_rate : 20);
+    else
+      clock_.stop();
+  }
+
+  void step(double seconds) {
+    for (; seconds > CycleWalking::longest_advance; seconds -= CycleWalking::longest_advance)
+      move(CycleWalking::longest_advance);
+    move(seconds);
+    show();
+  }
+
+  void move(double seconds) {
+    const Perf::Frame frame(perf());
+    walking_->advance(seconds);
+    own_->add(values_->of(walking_->pose()));
+    const auto contact = walking_->contact();
+    if (!contact) return;
+    const char* const foot = *contact == Foot::right ? "right" : "left";
+    if (own_->contact(*contact)) info_.add(own_->scores()).send("scores");
+    info_.add(foot).send("step");
+    info_.add(foot).send("contact");
+  }
+
+  void show() {
+    info_.add(walking_->cadence()).send("cadence");
+    info_.add(walking_->phase()).send("phase");
+    if (const float leg = walking_->leg_length(); leg != leg_sent_) {
+      leg_sent_ = leg;
+      pose_.add(leg).send("leg");
+    }
+    pose_.add(values_->of(walking_->pose())).send("pose");
+  }
+
+  ColdInlet cold_;
+  Outlet pose_, info_;
+  std::unique_ptr<CycleWalking> walking_;
+  std::unique_ptr<PoseValues> values_;
+  std::unique_ptr<CycleProjector> projector_, own_;
+  std::vector<float> given_;
+  Metronome clock_{[this] {
+    if (ready_for_frame()) step(1 / model()->model->frame_rate);
+  }};
+  double turn_ = 0;  // rad/s
+  float leg_sent_ = 0;
+};
+
+}  // namespace
+
+void setup_pca() {
+  if (!may_register("gait.pca")) return;
+  Class<Pca>("gait.pca")
+      .bang<&Pca::bang>()
+      .list<&Pca::number>()
+      .message<&Pca::advance>("advance")
+      .message<&Pca::start>("start")
+      .message<&Pca::stop>("stop")
+      .message<&Pca::phase>("phase")
+      .message<&Pca::turn>("turn")
+      .message<&Pca::reset>("reset")
+      .message<&Pca::dump>("dump")
+      .message<&Pca::perf_message>("perf")
+      .message<&Pca::print>("print")
+      .anything<&Pca::setting>();
+}
+
+}  // namespace gait::pd

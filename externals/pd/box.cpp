@@ -1,0 +1,57 @@
+#include "pd/box.h"
+
+#include <string>
+
+namespace gait::pd {
+
+struct ColdInlet::Proxy {
+  t_pd pd;
+  Box* box;
+  void* self;
+  Take take;
+};
+
+namespace {
+
+void take_anything(ColdInlet::Proxy* proxy, t_symbol* selector, int count, t_atom* atoms);
+
+t_class* proxy_class() {
+  static t_class* const cls = [] {
+    t_class* made = class_new64(gensym("gait cold inlet"), nullptr, nullptr,
+                                sizeof(ColdInlet::Proxy), CLASS_PD, A_NULL);
+    class_addanything(made, reinterpret_cast<t_method>(&take_anything));
+    return made;
+  }();
+  return cls;
+}
+
+void take_anything(ColdInlet::Proxy* proxy, t_symbol* selector, int count, t_atom* atoms) {
+  try {
+    proxy->take(proxy->self, Arguments(proxy->box->name(), selector->s_name, count, atoms));
+  } catch (const std::exception& error) {
+    say_error(*proxy->box, error.what());
+  }
+}
+
+}  // namespace
+
+void say_error(Box& box, const char* what) { pd_error(&box, "%s", what); }
+
+ColdInlet::ColdInlet(Box& box, void* self, Take take) {
+  proxy_ = reinterpret_cast<Proxy*>(pd_new(proxy_class()));
+  proxy_->box = &box;
+  proxy_->self = self;
+  proxy_->take = take;
+  inlet_new(&box.object, &proxy_->pd, nullptr, nullptr);
+}
+
+ColdInlet::~ColdInlet() { pd_free(&proxy_->pd); }
+
+bool may_register(const char* name) { return zgetfn(&pd_objectmaker, gensym(name)) == nullptr; }
+
+void finish_class(t_class* cls, const char* name, t_newmethod make) {
+  class_addcreator(make, gensym((std::string("gait/") + name).c_str()), A_GIMME, A_NULL);
+  class_sethelpsymbol(cls, gensym((std::string("help_patches/") + name).c_str()));
+}
+
+}  // namespace gait::pd

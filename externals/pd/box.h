@@ -1,0 +1,132 @@
+// The life of an object in Pd: a C++ class behind a box, its messages, its inlets.
+//
+// A class T is made by T(Box&, const Arguments&) when its box is, and deleted with it. Messages are
+// member functions that take the message's arguments; what they throw becomes one line on Pd's
+// console, and the box stays as it was. Nothing that comes at frame rate throws.
+#pragma once
+
+#include <m_pd.h>
+
+#include <exception>
+
+#include "pd/arguments.h"
+
+namespace gait::pd {
+
+// What Pd keeps of an object.
+struct Box {
+  t_object object;
+  void* self;
+
+  t_pd* pd() { return &object.ob_pd; }
+  const char* name() const { return class_getname(object.ob_pd); }
+};
+
+// Says it on the console, for this box ("Find last error" leads to it).
+void say_error(Box& box, const char* what);
+
+// An inlet that takes any message without being the first. Its owner must keep it.
+class ColdInlet {
+ public:
+  using Take = void (*)(void* self, const Arguments& arguments);
+  ColdInlet(Box& box, void* self, Take take);
+  ~ColdInlet();
+  ColdInlet(const ColdInlet&) = delete;
+  ColdInlet& operator=(const ColdInlet&) = delete;
+
+  struct Proxy;
+
+ private:
+  Proxy* proxy_;
+};
+
+// `T::cold` as a ColdInlet's Take.
+template <class T>
+void take_cold(void* self, const Arguments& arguments) {
+  static_cast<T*>(self)->cold(arguments);
+}
+
+// True when no class of that name is registered yet: the same library may be loaded twice, as
+// copies of one file (pd-notes: a class registered again is "overwritten").
+bool may_register(const char* name);
+// Also reachable as gait/NAME, and with its help patch in help_patches/.
+void finish_class(t_class* cls, const char* name, t_newmethod make);
+
+template <class T>
+class Class {
+ public:
+  // `flags`: CLASS_NOINLET, CLASS_MULTICHANNEL (0x10), ...
+  explicit Class(const char* name, int flags = CLASS_DEFAULT) {
+    cls_ = class_new64(gensym(name), reinterpret_cast<t_newmethod>(&make),
+                       reinterpret_cast<t_method>(&destroy), sizeof(Box), flags, A_GIMME, A_NULL);
+    finish_class(cls_, name, reinterpret_cast<t_newmethod>(&make));
+  }
+
+  template <auto Method>
+  Class& message(const char* selector) {
+    class_addmethod(cls_, reinterpret_cast<t_method>(&call<Method>), gensym(selector), A_GIMME,
+                    A_NULL);
+    return *this;
+  }
+  // A bang, a list without a selector (a float too), a symbol: they arrive as their own selectors.
+  template <auto Method>
+  Class& bang() {
+    class_addbang(cls_, reinterpret_cast<t_method>(&call_bang<Method>));
+    return *this;
+  }
+  template <auto Method>
+  Class& list() {
+    class_addlist(cls_, reinterpret_cast<t_method>(&call<Method>));
+    return *this;
+  }
+  // All messages that no other handler takes.
+  template <auto Method>
+  Class& anything() {
+    class_addanything(cls_, reinterpret_cast<t_method>(&call<Method>));
+    return *this;
+  }
+  // void T::dsp(t_signal**), when the DSP graph is made.
+  Class& dsp() {
+    class_addmethod(cls_, reinterpret_cast<t_method>(&call_dsp), gensym("dsp"), A_CANT, A_NULL);
+    return *this;
+  }
+  t_class* pd() const { return cls_; }
+
+ private:
+  static void* make(t_symbol* name, int count, t_atom* atoms) {
+    auto* box = reinterpret_cast<Box*>(pd_new(cls_));
+    box->self = nullptr;
+    try {
+      box->self = new T(*box, Arguments(box->name(), "", count, atoms));
+    } catch (const std::exception& error) {
+      say_error(*box, error.what());
+      pd_free(box->pd());
+      return nullptr;
+    }
+    (void)name;
+    return box;
+  }
+  static void destroy(Box* box) { delete static_cast<T*>(box->self); }
+
+  template <auto Method>
+  static void call(Box* box, t_symbol* selector, int count, t_atom* atoms) {
+    try {
+      (static_cast<T*>(box->self)->*Method)(Arguments(box->name(), selector->s_name, count, atoms));
+    } catch (const std::exception& error) {
+      say_error(*box, error.what());
+    }
+  }
+  template <auto Method>
+  static void call_bang(Box* box) {
+    try {
+      (static_cast<T*>(box->self)->*Method)(Arguments(box->name(), "bang", 0, nullptr));
+    } catch (const std::exception& error) {
+      say_error(*box, error.what());
+    }
+  }
+  static void call_dsp(Box* box, t_signal** signals) { static_cast<T*>(box->self)->dsp(signals); }
+
+  static inline t_class* cls_ = nullptr;
+};
+
+}  // namespace gait::pd

@@ -1,0 +1,169 @@
+#include "pd/models.h"
+
+#include <dlfcn.h>
+
+#include <algorithm>
+#include <filesystem>
+#include <map>
+#include <vector>
+
+#include "gait/corpus/demo_model.h"
+#include "gait/error.h"
+#include "gait/model/model_file.h"
+#include "pd/worker.h"
+
+namespace gait::pd {
+
+namespace {
+
+// The folder of this library's own file, through whatever link it was loaded.
+std::filesystem::path library_folder() {
+  Dl_info found{};
+  static const char here = 0;
+  if (dladdr(&here, &found) == 0 || found.dli_fname == nullptr) return {};
+  std::error_code failure;
+  const auto path = std::filesystem::canonical(found.dli_fname, failure);
+  return failure ? std::filesystem::path() : path.parent_path();
+}
+
+}  // namespace
+
+SharedModel make_play_model(Model model) {
+  auto made = std::make_shared<PlayModel>();
+  made->model = std::make_shared<const Model>(std::move(model));
+  const Model& learnt = *made->model;
+  made->states = make_state_tables(learnt);
+  if (learnt.input_mean.size() > 0) made->steps = make_step_tables(learnt);
+  if (learnt.style_space) made->cycles = make_cycle_tables(learnt.style_space->space, *learnt.body);
+  if (!learnt.speed_spaces.empty()) made->speeds = make_speed_tables(learnt);
+  return made;
+}
+
+SharedModel load_model(const std::string& path) { return make_play_model(read_model(path)); }
+
+SharedModel load_demo_model() {
+  const std::filesystem::path file = library_folder() / (std::string(demo_model_name) + ".gait");
+  std::error_code failure;
+  if (std::filesystem::exists(file, failure)) {
+    try {
+      return load_model(file.string());
+    } catch (const Error&) {
+      // Of another version, or broken: it is made from figures that are in the library itself.
+    }
+  }
+  return make_play_model(make_demo_model());
+}
+
+ModelUser::ModelUser(Box& box, std::string name)
+    : box_(box),
+      name_(name.empty() ? std::string(demo_model_name) : std::move(name)),
+      slow_error_(box) {}
+
+ModelUser::~ModelUser() {
+  if (joined_) Models::get().remove(this);
+}
+
+void ModelUser::join() {
+  joined_ = true;
+  Models::get().add(this);
+}
+
+bool ModelUser::ready_for_frame() {
+  if (model_) return true;
+  perf_.drop();
+  if (!said_waiting_) logpost(&box_, 2, "%s: waiting for %s", box_.name(), name_.c_str());
+  said_waiting_ = true;
+  return false;
+}
+
+void ModelUser::change(const SharedModel& model) {
+  try {
+    take(model, model_);
+    model_ = model;
+    said_waiting_ = false;
+  } catch (const std::exception& error) {
+    const std::string line = std::string(box_.name()) + ": " + error.what();
+    say_error(box_, line.c_str());
+  }
+}
+
+struct Models::Inside {
+  struct Entry {
+    SharedModel model;
+    std::vector<ModelUser*> users;
+    int loading = 0;  // number of the last load that was asked for
+    bool busy = false;
+  };
+  std::map<std::string, Entry> entries;
+};
+
+Models::Models() : inside_(new Inside) {}
+
+Models& Models::get() {
+  static Models* const models = new Models;
+  return *models;
+}
+
+SharedModel Models::find(const std::string& name) const {
+  const auto at = inside_->entries.find(name);
+  return at == inside_->entries.end() ? nullptr : at->second.model;
+}
+
+void Models::add(ModelUser* user) {
+  Inside::Entry& entry = inside_->entries[user->name_];
+  entry.users.push_back(user);
+  if (entry.model) {
+    user->change(entry.model);
+  } else if (user->name_ == demo_model_name && !entry.busy) {
+    load(user->name_, load_demo_model, false, [](const std::string& reason) {
+      pd_error(nullptr, "gait: the built-in model cannot be made: %s", reason.c_str());
+    });
+  }
+}
+
+void Models::remove(ModelUser* user) { std::erase(inside_->entries[user->name_].users, user); }
+
+void Models::publish(const std::string& name, SharedModel model) {
+  Inside::Entry& entry = inside_->entries[name];
+  SharedModel old = std::move(entry.model);
+  entry.model = std::move(model);
+  const std::vector<ModelUser*> users = entry.users;
+  for (ModelUser* user : users) user->change(entry.model);
+  for (ModelUser* user : users)
+    // What one user sends may make another one go.
+    if (std::ranges::find(entry.users, user) != entry.users.end() && user->model_ == entry.model)
+      user->say_ready();
+  if (old) Worker::get().free_later(std::move(old));
+}
+
+void Models::load(const std::string& name, std::function<SharedModel()> make, bool blocking,
+                  std::function<void(const std::string&)> failed) {
+  struct Result {
+    SharedModel model;
+    std::string reason;
+  };
+  Inside::Entry& entry = inside_->entries[name];
+  const int number = ++entry.loading;
+  entry.busy = true;
+  const auto result = std::make_shared<Result>();
+  Worker::get().run(
+      [result, make = std::move(make)] {
+        try {
+          result->model = make();
+        } catch (const std::exception& error) {
+          result->reason = error.what();
+        }
+      },
+      [this, name, number, result, failed = std::move(failed)] {
+        Inside::Entry& loaded = inside_->entries[name];
+        if (number != loaded.loading) return;
+        loaded.busy = false;
+        if (result->model)
+          publish(name, result->model);
+        else
+          failed(result->reason);
+      },
+      blocking);
+}
+
+}  // namespace gait::pd

@@ -1,0 +1,44 @@
+// Messages out. Every one begins with a selector; its atoms are gathered in a buffer of the outlet,
+// which grows once and then is used again: nothing allocates at frame rate.
+#pragma once
+
+#include <m_pd.h>
+
+#include <span>
+#include <string>
+#include <vector>
+
+#include "pd/box.h"
+
+namespace gait::pd {
+
+class Outlet {
+ public:
+  // A message outlet. Outlets stand in the order they are made, left to right.
+  explicit Outlet(Box& box) : outlet_(outlet_new(&box.object, nullptr)) {}
+
+  void reserve(int atoms) { atoms_.reserve(static_cast<std::size_t>(atoms)); }
+  // Room for a message of so many atoms whose places are written one by one.
+  Outlet& add(double number);
+  Outlet& add(int number) { return add(static_cast<double>(number)); }
+  Outlet& add(float number) { return add(static_cast<double>(number)); }
+  Outlet& add(std::span<const float> numbers);
+  Outlet& add(const char* symbol);
+  Outlet& add(const std::string& symbol) { return add(symbol.c_str()); }
+  // Labels may be numbers: `12` goes out as a number.
+  Outlet& add_text(const std::string& text);
+  // What has come, as it was.
+  Outlet& add(std::span<const t_atom> atoms);
+
+  // Sends what was added since the last time; the buffer is empty again before anybody receives, so
+  // that a cord back to the same box does no harm.
+  void send(const char* selector);
+  void bang() { outlet_bang(outlet_); }
+
+ private:
+  t_outlet* outlet_;
+  std::vector<t_atom> atoms_, sending_;
+  bool busy_ = false;
+};
+
+}  // namespace gait::pd

@@ -1,0 +1,70 @@
+#include "pd/phase_signals.h"
+
+#include <algorithm>
+
+namespace gait::pd {
+
+PhaseSignals::PhaseSignals(Box& box, std::function<void(int)> contact)
+    : contact_(std::move(contact)) {
+  for (int i = 0; i < outlets; ++i) outlet_new(&box.object, gensym("signal"));
+}
+
+void PhaseSignals::replace(const PhaseClockSettings& settings) {
+  const float phase = clock_.phase();
+  clock_ = PhaseClock(settings);
+  clock_.observe(phase);
+}
+
+void PhaseSignals::dsp(t_signal** signals, int first) {
+  for (int i = 0; i < outlets; ++i) out_[static_cast<std::size_t>(i)] = signals[first + i]->s_vec;
+  sample_rate_ = signals[first]->s_sr;
+  dsp_add(&perform, 2, this, static_cast<t_int>(signals[first]->s_n));
+}
+
+t_int* PhaseSignals::perform(t_int* w) {
+  reinterpret_cast<PhaseSignals*>(w[1])->fill(static_cast<int>(w[2]));
+  return w + 3;
+}
+
+void PhaseSignals::fill(int count) noexcept {
+  const auto begin = std::chrono::steady_clock::now();
+  t_sample *phase = out_[0], *cadence = out_[1], *right = out_[2], *left = out_[3];
+  std::fill_n(right, count, t_sample(0));
+  std::fill_n(left, count, t_sample(0));
+  const int longest = static_cast<int>(ramp_.size());
+  for (int done = 0; done < count; done += longest) {
+    const int part = std::min(longest, count - done);
+    if (running_) {
+      clock_.process({ramp_.data(), static_cast<std::size_t>(part)}, sample_rate_);
+      for (const PhaseClock::Crossing& crossing : clock_.crossings()) {
+        (crossing.step % 2 == 0 ? right : left)[done + crossing.sample] = 1;
+        if (count_ < static_cast<int>(steps_.size()))
+          steps_[static_cast<std::size_t>(count_++)] = crossing.step;
+      }
+    } else {
+      std::fill_n(ramp_.data(), part, clock_.phase());
+    }
+    for (int i = 0; i < part; ++i) phase[done + i] = ramp_[static_cast<std::size_t>(i)];
+  }
+  std::fill_n(cadence, count, running_ ? t_sample(clock_.cadence()) : t_sample(0));
+  if (count_ > 0) ticker_.after(0);
+  const std::chrono::duration<double, std::micro> took = std::chrono::steady_clock::now() - begin;
+  microseconds_ += took.count();
+  most_ = std::max(most_, took.count());
+  ++blocks_;
+}
+
+void PhaseSignals::tell() {
+  const auto steps = steps_;
+  const int count = count_;
+  count_ = 0;
+  for (int i = 0; i < count; ++i) contact_(steps[static_cast<std::size_t>(i)]);
+}
+
+void PhaseSignals::report(Outlet& info) {
+  info.add(blocks_ > 0 ? microseconds_ / blocks_ : 0).add(most_).add(blocks_).add(0).send("perf");
+  microseconds_ = most_ = 0;
+  blocks_ = 0;
+}
+
+}  // namespace gait::pd

@@ -1,0 +1,57 @@
+// A phase clock that is heard: four signal outlets, which [gait.viterbi~] and [gait.phase~] share.
+//
+//   phase~     0 to 1, a ramp per cycle     right~, left~   one sample of 1 where that foot touches
+//   cadence~   steps per second
+#pragma once
+
+#include <array>
+#include <chrono>
+#include <functional>
+#include <optional>
+
+#include "gait/play/phase_clock.h"
+#include "pd/outlet.h"
+#include "pd/ticker.h"
+
+namespace gait::pd {
+
+class PhaseSignals {
+ public:
+  static constexpr int outlets = 4;
+
+  // Makes the outlets. `contact`: called on Pd's thread, outside DSP, for each contact with the
+  // step that begins (0 right, 1 left).
+  PhaseSignals(Box& box, std::function<void(int step)> contact);
+
+  PhaseClock& clock() { return clock_; }
+  // Another clock (of another model), which goes on where the last one was.
+  void replace(const PhaseClockSettings& settings);
+  // Whether contacts and the ramp may go on: off, phase~ stands and right~ and left~ are silent.
+  void set_running(bool running) { running_ = running; }
+
+  // From the box's dsp method; `first`: index of phase~ among the signals.
+  void dsp(t_signal** signals, int first = 0);
+
+  // `perf MEAN_US MAX_US BLOCKS 0` of the signals, since the last time.
+  void report(Outlet& info);
+
+ private:
+  static t_int* perform(t_int* w);
+  void fill(int count) noexcept;
+  void tell();
+
+  PhaseClock clock_;
+  std::function<void(int)> contact_;
+  bool running_ = true;
+  double sample_rate_ = 48000;
+  std::array<t_sample*, outlets> out_{};
+  std::array<float, 8192> ramp_{};
+  // Steps that began since they were told; more than fit are not worth telling.
+  std::array<int, 64> steps_{};
+  int count_ = 0;
+  double microseconds_ = 0, most_ = 0;
+  int blocks_ = 0;
+  Ticker ticker_{[this] { tell(); }};
+};
+
+}  // namespace gait::pd

@@ -1,0 +1,34 @@
+// Errors that could come with every frame: said once a second at most, with how many there were.
+#pragma once
+
+#include <m_pd.h>
+
+#include <string>
+
+#include "pd/box.h"
+
+namespace gait::pd {
+
+class SlowError {
+ public:
+  explicit SlowError(Box& box) : box_(box) {}
+
+  // `text()` makes the line; it is called only when it is said.
+  template <class Text>
+  void say(Text text) {
+    ++unsaid_;
+    if (said_ >= 0 && clock_gettimesince(said_) < 1000) return;
+    std::string line = text();
+    if (unsaid_ > 1) line += " (" + std::to_string(unsaid_) + " times since it was said last)";
+    say_error(box_, line.c_str());
+    said_ = clock_getlogicaltime();
+    unsaid_ = 0;
+  }
+
+ private:
+  Box& box_;
+  double said_ = -1;
+  int unsaid_ = 0;
+};
+
+}  // namespace gait::pd

@@ -1,0 +1,92 @@
+// [gait.phase~]: the phase clock without a decoder: driven by phases, contacts, switches or taps.
+#include <cmath>
+
+#include "objects.h"
+#include "pd/phase_signals.h"
+
+namespace gait::pd {
+
+namespace {
+
+class Phase {
+ public:
+  Phase(Box& box, const Arguments& arguments)
+      : box_(box), signals_(box, [this](int step) { contact_passed(step); }), info_(box) {
+    arguments.expect_count(0);
+  }
+
+  void phase(const Arguments& arguments) {
+    arguments.expect_count(1);
+    const double phase = arguments.number(0);
+    clock().observe(phase - std::floor(phase));
+  }
+  void cadence(const Arguments& arguments) {
+    arguments.expect_count(1);
+    cadence_ = arguments.number(0, 0.1, 20);
+    clock().set_cadence(cadence_);
+  }
+  void contact(const Arguments& arguments) {
+    arguments.expect_count(1);
+    const std::string foot = arguments.symbol(0);
+    if (foot != "right" && foot != "left") arguments.fail_at(0, "right or left");
+    clock().observe_contact(foot == "right" ? 0 : 1);
+  }
+  void walking(const Arguments& arguments) {
+    arguments.expect_count(1);
+    walking_ = arguments.flag(0);
+    clock().set_walking(walking_);
+  }
+  void pull(const Arguments& arguments) {
+    arguments.expect_count(1);
+    pull_ = arguments.number(0, 0, 10);
+    clock().set_pull(pull_);
+  }
+  void tap(const Arguments&) { clock().tap(); }
+  void reset(const Arguments&) { clock().reset(); }
+  void dump(const Arguments&) {
+    info_.add(cadence_).send("cadence");
+    info_.add(pull_).send("pull");
+    info_.add(walking_ ? 1 : 0).send("walking");
+  }
+  void perf_message(const Arguments&) { signals_.report(info_); }
+  void print(const Arguments&) {
+    post("%s: phase %.3f, %.2f steps per second, %s", box_.name(),
+         static_cast<double>(clock().phase()), static_cast<double>(clock().cadence()),
+         clock().walking() ? "walking" : "standing");
+  }
+  void dsp(t_signal** signals) { signals_.dsp(signals); }
+
+ private:
+  void contact_passed(int step) {
+    info_.add(static_cast<double>(clock().cadence())).send("cadence");
+    info_.add(step == 0 ? "right" : "left").send("step");
+    info_.add(step == 0 ? "right" : "left").send("contact");
+  }
+  PhaseClock& clock() { return signals_.clock(); }
+
+  Box& box_;
+  PhaseSignals signals_;
+  Outlet info_;
+  double cadence_ = 1.8, pull_ = 1;
+  bool walking_ = true;
+};
+
+}  // namespace
+
+void setup_phase() {
+  if (!may_register("gait.phase~")) return;
+  Class<Phase>("gait.phase~")
+      .message<&Phase::phase>("phase")
+      .message<&Phase::cadence>("cadence")
+      .message<&Phase::contact>("contact")
+      .message<&Phase::walking>("walking")
+      .message<&Phase::pull>("pull")
+      .message<&Phase::tap>("tap")
+      .message<&Phase::reset>("reset")
+      .message<&Phase::dump>("dump")
+      .message<&Phase::perf_message>("perf")
+      .message<&Phase::print>("print")
+      .dsp();
+}
+
+}  // namespace gait::pd

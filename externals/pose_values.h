@@ -1,0 +1,32 @@
+// A whole body's rotations as the `pose` message has them: three values per joint of the body.
+#pragma once
+
+#include <span>
+#include <vector>
+
+#include "gait/model/body_pose.h"
+
+namespace gait::pd {
+
+class PoseValues {
+ public:
+  explicit PoseValues(const Body& body) : values_(3 * body.references.size()) {
+    for (const Eigen::Quaterniond& reference : body.references) {
+      joints_.push_back(static_cast<int>(joints_.size()));
+      references_.push_back(reference.cast<float>());
+    }
+  }
+
+  // `pose`: local rotations, one per joint of the body. Valid until the next call.
+  std::span<const float> of(std::span<const Eigen::Quaternionf> pose) noexcept {
+    pose_vector<float>(pose, references_, joints_, values_);
+    return values_;
+  }
+
+ private:
+  std::vector<Eigen::Quaternionf> references_;
+  std::vector<int> joints_;
+  std::vector<float> values_;
+};
+
+}  // namespace gait::pd
