@@ -17,8 +17,8 @@ void take_anything(ColdInlet::Proxy* proxy, t_symbol* selector, int count, t_ato
 
 t_class* proxy_class() {
   static t_class* const cls = [] {
-    t_class* made = class_new64(gensym("gait cold inlet"), nullptr, nullptr,
-                                sizeof(ColdInlet::Proxy), CLASS_PD, A_NULL);
+    t_class* made = class_new(gensym("gait cold inlet"), nullptr, nullptr, sizeof(ColdInlet::Proxy),
+                              CLASS_PD, A_NULL);
     class_addanything(made, reinterpret_cast<t_method>(&take_anything));
     return made;
   }();
@@ -27,7 +27,8 @@ t_class* proxy_class() {
 
 void take_anything(ColdInlet::Proxy* proxy, t_symbol* selector, int count, t_atom* atoms) {
   try {
-    proxy->take(proxy->self, Arguments(proxy->box->name(), selector->s_name, count, atoms));
+    proxy->take(proxy->self,
+                Arguments(proxy->box->name(), selector ? selector->s_name : "list", count, atoms));
   } catch (const std::exception& error) {
     say_error(*proxy->box, error.what());
   }

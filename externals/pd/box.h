@@ -57,8 +57,8 @@ class Class {
  public:
   // `flags`: CLASS_NOINLET, CLASS_MULTICHANNEL (0x10), ...
   explicit Class(const char* name, int flags = CLASS_DEFAULT) {
-    cls_ = class_new64(gensym(name), reinterpret_cast<t_newmethod>(&make),
-                       reinterpret_cast<t_method>(&destroy), sizeof(Box), flags, A_GIMME, A_NULL);
+    cls_ = class_new(gensym(name), reinterpret_cast<t_newmethod>(&make),
+                     reinterpret_cast<t_method>(&destroy), sizeof(Box), flags, A_GIMME, A_NULL);
     finish_class(cls_, name, reinterpret_cast<t_newmethod>(&make));
   }
 
@@ -108,10 +108,14 @@ class Class {
   }
   static void destroy(Box* box) { delete static_cast<T*>(box->self); }
 
+  // A number alone comes as a list without a selector.
+  static const char* name_of(t_symbol* selector) { return selector ? selector->s_name : "list"; }
+
   template <auto Method>
   static void call(Box* box, t_symbol* selector, int count, t_atom* atoms) {
     try {
-      (static_cast<T*>(box->self)->*Method)(Arguments(box->name(), selector->s_name, count, atoms));
+      (static_cast<T*>(box->self)->*Method)(
+          Arguments(box->name(), name_of(selector), count, atoms));
     } catch (const std::exception& error) {
       say_error(*box, error.what());
     }

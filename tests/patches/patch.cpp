@@ -1,0 +1,125 @@
+#include "patches/patch.h"
+
+#include <gtest/gtest.h>
+#include <sys/wait.h>
+
+#include <array>
+#include <cstdio>
+#include <cstdlib>
+#include <filesystem>
+#include <fstream>
+#include <regex>
+#include <sstream>
+
+namespace gait::testing {
+
+namespace {
+
+// In a patch's text commas, semicolons and dollars of a box are escaped.
+std::string escaped(const std::string& text) {
+  std::string result;
+  for (const char c : text) {
+    if (c == ',' || c == ';' || c == '$') result += std::string(result.empty() ? "" : " ") + "\\";
+    result += c;
+  }
+  return result;
+}
+
+}  // namespace
+
+Patch::Patch() { text_ = "#N canvas 0 0 700 700 12;\n"; }
+
+int Patch::add(const std::string& kind, const std::string& text) {
+  text_ += "#X " + kind + " 10 " + std::to_string(10 + 20 * pieces_) + " " + escaped(text) + ";\n";
+  return pieces_++;
+}
+
+void Patch::connect(int from, int outlet, int to, int inlet) {
+  cords_ += "#X connect " + std::to_string(from) + " " + std::to_string(outlet) + " " +
+            std::to_string(to) + " " + std::to_string(inlet) + ";\n";
+}
+
+void Patch::at_start(const std::vector<std::string>& messages, int to, int inlet) {
+  // [loadbang] fires its cords in the order they were made.
+  const int begin = object("loadbang");
+  for (const std::string& text : messages) {
+    const int box = message(text);
+    connect(begin, 0, box);
+    connect(box, 0, to, inlet);
+  }
+}
+
+void Patch::record(int from, int outlet, const std::string& name) {
+  connect(from, outlet, object("recorder " + name));
+}
+
+void Patch::quit_after(double milliseconds) {
+  const int begin = object("loadbang"), delay = object("delay " + std::to_string(milliseconds)),
+            quit = message("; pd quit 0");
+  connect(begin, 0, delay);
+  connect(delay, 0, quit);
+}
+
+void Patch::dsp() {
+  const int begin = object("loadbang"), on = message("; pd dsp 1");
+  connect(begin, 0, on);
+}
+
+std::string Patch::whole() const { return text_ + cords_; }
+
+bool has_pd() { return std::string(GAIT_PD_PROGRAM).find("NOTFOUND") == std::string::npos; }
+
+PdRun run_pd(const Patch& patch) {
+  namespace fs = std::filesystem;
+  PdRun run;
+  std::string name = ::testing::TempDir() + "gait_patch_XXXXXX";
+  run.folder = mkdtemp(name.data());
+  std::ofstream(run.folder + "/test.pd") << patch.whole();
+  const std::string command =
+      "cd '" + run.folder + "' && " + std::string(GAIT_PD_PRELOAD) +
+      " timeout 120 " GAIT_PD_PROGRAM
+      " -nogui -noprefs -noaudio -nomidi -batch -r 48000 -stderr -path '" GAIT_PD_FOLDER
+      "' -path '" GAIT_RECORDER_FOLDER "' -lib recorder -lib gait -open test.pd 2>&1";
+  FILE* pipe = popen(command.c_str(), "r");
+  std::array<char, 4096> piece;
+  while (const std::size_t count = fread(piece.data(), 1, piece.size(), pipe))
+    run.log.append(piece.data(), count);
+  const int status = pclose(pipe);
+  run.exit_code = WIFEXITED(status) ? WEXITSTATUS(status) : 128 + WTERMSIG(status);
+  return run;
+}
+
+std::vector<std::string> PdRun::recorded(const std::string& name) const {
+  std::vector<std::string> lines;
+  std::ifstream file(folder + "/" + name);
+  for (std::string line; std::getline(file, line);) lines.push_back(line);
+  return lines;
+}
+
+std::vector<std::vector<double>> PdRun::numbers(const std::string& name,
+                                                const std::string& selector) const {
+  std::vector<std::vector<double>> rows;
+  for (const std::string& line : recorded(name)) {
+    std::istringstream words(line);
+    std::string first;
+    words >> first;
+    if (first != selector) continue;
+    rows.emplace_back();
+    for (double number; words >> number;) rows.back().push_back(number);
+  }
+  return rows;
+}
+
+std::vector<std::string> PdRun::errors() const {
+  static const std::regex failure(
+      "couldn't create|^error:|^verbose\\(1\\):|no method for|bad arguments|can't open|undefined "
+      "symbol|class '.*' overwritten|refusing to load|connection failed|ERROR: "
+      "AddressSanitizer|ERROR: LeakSanitizer|runtime error|ThreadSanitizer");
+  std::vector<std::string> found;
+  std::istringstream lines(log);
+  for (std::string line; std::getline(lines, line);)
+    if (std::regex_search(line, failure)) found.push_back(line);
+  return found;
+}
+
+}  // namespace gait::testing

@@ -1,0 +1,56 @@
+// Patches made by tests and run in Pd itself, without a window and without waiting for time to
+// pass.
+#pragma once
+
+#include <string>
+#include <vector>
+
+namespace gait::testing {
+
+// The text of a patch. Each piece gets a number, from 0; pieces are connected by number.
+class Patch {
+ public:
+  Patch();
+
+  int object(const std::string& text) { return add("obj", text); }
+  int message(const std::string& text) { return add("msg", text); }
+  void connect(int from, int outlet, int to, int inlet = 0);
+  // Sends these messages to `to`, in this order, when the patch is loaded. `;` in them is Pd's.
+  void at_start(const std::vector<std::string>& messages, int to, int inlet = 0);
+  // Records what an outlet sends, each message a line; see PdRun::recorded.
+  void record(int from, int outlet, const std::string& name);
+  // The patch ends itself after so many milliseconds of its own time, all loading done.
+  void quit_after(double milliseconds);
+  // Switches DSP on when the patch is loaded.
+  void dsp();
+
+  std::string whole() const;  // the file's text
+
+ private:
+  int add(const std::string& kind, const std::string& text);
+  int pieces_ = 0;
+  std::string text_, cords_;
+};
+
+struct PdRun {
+  int exit_code = 0;   // 0 when the patch ended itself; 124: it did not end
+  std::string log;     // Pd's console
+  std::string folder;  // with what was recorded
+  // Lines of a record: selector and arguments.
+  std::vector<std::string> recorded(const std::string& name) const;
+  // The numbers of the lines with this selector.
+  std::vector<std::vector<double>> numbers(const std::string& name,
+                                           const std::string& selector) const;
+  // Lines of the log that mean a failure (pd-notes: they do not show in the exit code).
+  std::vector<std::string> errors() const;
+};
+
+// Where there is a pd to run, with the library built.
+bool has_pd();
+PdRun run_pd(const Patch& patch);
+
+}  // namespace gait::testing
+
+// At the beginning of a test that runs Pd.
+#define GAIT_NEEDS_PD() \
+  if (!::gait::testing::has_pd()) GTEST_SKIP() << "there is no pd here (Debian: puredata-core)"
