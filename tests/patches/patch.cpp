@@ -29,6 +29,8 @@ std::string escaped(const std::string& text) {
 
 Patch::Patch() { text_ = "#N canvas 0 0 700 700 12;\n"; }
 
+void Patch::declare(const std::string& what) { text_ += "#X declare " + what + ";\n"; }
+
 int Patch::add(const std::string& kind, const std::string& text) {
   text_ += "#X " + kind + " 10 " + std::to_string(10 + 20 * pieces_) + " " + escaped(text) + ";\n";
   return pieces_++;
@@ -69,17 +71,21 @@ std::string Patch::whole() const { return text_ + cords_; }
 
 bool has_pd() { return std::string(GAIT_PD_PROGRAM).find("NOTFOUND") == std::string::npos; }
 
-PdRun run_pd(const Patch& patch) {
+PdRun run_pd(const Patch& patch, const RunOptions& options) {
   namespace fs = std::filesystem;
   PdRun run;
   std::string name = ::testing::TempDir() + "gait_patch_XXXXXX";
   run.folder = mkdtemp(name.data());
   std::ofstream(run.folder + "/test.pd") << patch.whole();
-  const std::string command =
-      "cd '" + run.folder + "' && " + std::string(GAIT_PD_PRELOAD) +
-      " timeout 120 " GAIT_PD_PROGRAM
-      " -nogui -noprefs -noaudio -nomidi -batch -r 48000 -stderr -path '" GAIT_PD_FOLDER
-      "' -path '" GAIT_RECORDER_FOLDER "' -lib recorder -lib gait -open test.pd 2>&1";
+  const std::string library = options.home.empty() ? "-path '" GAIT_PD_FOLDER
+                                                     "' -path '" GAIT_RECORDER_FOLDER
+                                                     "' -lib recorder -lib gait"
+                                                   : "";
+  const std::string home = options.home.empty() ? "" : "HOME='" + options.home + "' ";
+  const std::string command = "cd '" + run.folder + "' && " + home + std::string(GAIT_PD_PRELOAD) +
+                              " timeout 120 " GAIT_PD_PROGRAM
+                              " -nogui -noprefs -noaudio -nomidi -batch -r 48000 -stderr " +
+                              library + " -open test.pd 2>&1";
   FILE* pipe = popen(command.c_str(), "r");
   std::array<char, 4096> piece;
   while (const std::size_t count = fread(piece.data(), 1, piece.size(), pipe))

@@ -11,6 +11,8 @@ namespace gait::testing {
 class Patch {
  public:
   Patch();
+  // The patch's own [declare]: what it needs from where Pd itself looks.
+  void declare(const std::string& what);
 
   int object(const std::string& text) { return add("obj", text); }
   int message(const std::string& text) { return add("msg", text); }
@@ -47,7 +49,10 @@ struct PdRun {
 
 // Where there is a pd to run, with the library built.
 bool has_pd();
-PdRun run_pd(const Patch& patch);
+struct RunOptions {
+  std::string home;  // Pd sees only what is installed there; empty: the library just built
+};
+PdRun run_pd(const Patch& patch, const RunOptions& options = {});
 
 }  // namespace gait::testing
 
