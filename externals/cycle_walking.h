@@ -2,6 +2,7 @@
 #pragma once
 
 #include <Eigen/Geometry>
+#include <functional>
 #include <memory>
 #include <optional>
 #include <span>
@@ -15,8 +16,15 @@ class CycleWalking {
  public:
   virtual ~CycleWalking() = default;
 
-  // Walks in this model from now on, at the phase it was at. Throws Error when it cannot.
-  virtual void take(const SharedModel& model) = 0;
+  // A walker in this model with the settings as they are now: made anywhere, the function holds
+  // copies of all it needs. It throws Error when the model cannot serve.
+  virtual std::function<std::shared_ptr<void>(const SharedModel&)> prepare() const = 0;
+  // Walks by that walker from now on, at the phase it was at; gives the old one back. Throws Error,
+  // with nothing changed, when settings do not fit the model.
+  virtual std::shared_ptr<void> take(const SharedModel& model, std::shared_ptr<void> walker) = 0;
+  // Which space of a model that can serve scores are of.
+  using SpaceOf = const CycleSpace& (*)(const Model& model);
+  virtual SpaceOf space_of() const = 0;
   // A setting of this walker's own; false when it has no such message. Throws Error, with nothing
   // changed, when it cannot be set. Before there is a model, it is kept.
   virtual bool set(const Arguments& arguments) = 0;
@@ -32,7 +40,6 @@ class CycleWalking {
   virtual double phase() const noexcept = 0;
   virtual float cadence() const noexcept = 0;
   virtual std::optional<Foot> contact() const noexcept = 0;
-  virtual const CycleSpace& space() const noexcept = 0;  // that scores are of
   // Leg length of the walker, metres, when it is another than the body's; else 0.
   virtual float leg_length() const noexcept { return 0; }
 };

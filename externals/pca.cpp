@@ -4,6 +4,7 @@
 #include "gait/play/cycle_projector.h"
 #include "objects.h"
 #include "pd/ticker.h"
+#include "pd/worker.h"
 #include "pose_values.h"
 
 namespace gait::pd {
@@ -55,7 +56,7 @@ class Pca final : public ModelUser {
   }
   void reset(const Arguments&) {
     if (model()) walking_->reset();
-    if (projector_) projector_->reset();
+    if (playing_) playing_->projector.reset(), playing_->own.reset();
     leg_sent_ = 0;
   }
   void dump(const Arguments&) {
@@ -72,7 +73,7 @@ class Pca final : public ModelUser {
     std::string styles;
     for (const std::string& style : learnt.styles) styles += " " + style;
     post("%s: walks in %s, %d scores, phase %.3f, cadence %.2f;%s", box().name(),
-         learnt.name.c_str(), walking_->space().kept(), walking_->phase(),
+         learnt.name.c_str(), walking_->space_of()(learnt).kept(), walking_->phase(),
          static_cast<double>(walking_->cadence()), styles.c_str());
   }
   void setting(const Arguments& arguments) {
@@ -83,31 +84,53 @@ class Pca final : public ModelUser {
   void cold(const Arguments& arguments) {
     if (arguments.selector() == "pose") {
       if (!ready_for_frame()) return;
-      if (!arguments.read(given_) || !projector_->add(given_))
+      if (!arguments.read(playing_->given) || !playing_->projector.add(playing_->given))
         slow_error().say([&] {
-          return std::string(box().name()) + ": pose: expected " + std::to_string(given_.size()) +
-                 " numbers, got " + std::to_string(arguments.size());
+          return std::string(box().name()) + ": pose: expected " +
+                 std::to_string(playing_->given.size()) + " numbers, got " +
+                 std::to_string(arguments.size());
         });
     } else if (arguments.selector() == "contact") {
       arguments.expect_count(1);
       const std::string foot = arguments.symbol(0);
       if (foot != "right" && foot != "left") arguments.fail_at(0, "right or left");
-      if (projector_ && projector_->contact(foot == "right" ? Foot::right : Foot::left))
-        info_.add(projector_->scores()).send("projected");
+      if (playing_ && playing_->projector.contact(foot == "right" ? Foot::right : Foot::left))
+        info_.add(playing_->projector.scores()).send("projected");
     } else {
       arguments.fail("no such message at the right inlet");
     }
   }
 
  private:
+  // All that a model needs here and that takes long to make.
+  struct Playing {
+    Playing(const SharedModel& model, std::shared_ptr<void> with, const CycleSpace& space)
+        : walker(std::move(with)),
+          values(*model->model->body),
+          projector(space, *model->model->body),
+          own(space, *model->model->body),
+          given(3 * model->model->body->references.size(), 0.0f) {}
+    std::shared_ptr<void> walker;
+    PoseValues values;
+    CycleProjector projector, own;
+    std::vector<float> given;
+  };
+
+  Prepare prepare() override {
+    return [make = walking_->prepare(), space = walking_->space_of()](const SharedModel& model) {
+      auto walker = make(model);
+      return std::make_shared<Playing>(model, std::move(walker), space(*model->model));
+    };
+  }
+
   void take(const SharedModel& model, const SharedModel&) override {
-    walking_->take(model);
-    const Body& body = *model->model->body;
-    values_ = std::make_unique<PoseValues>(body);
-    projector_ = std::make_unique<CycleProjector>(walking_->space(), body);
-    own_ = std::make_unique<CycleProjector>(walking_->space(), body);
-    given_.assign(3 * body.references.size(), 0);
-    pose_.reserve(static_cast<int>(given_.size()));
+    auto playing = prepared<Playing>();
+    playing->walker = walking_->take(model, std::move(playing->walker));  // the old one
+    pose_.reserve(static_cast<int>(playing->given.size()));
+    info_.reserve(static_cast<int>(playing->own.scores().size()));
+    std::swap(playing_, playing);
+    if (playing) Worker::get().free_later(std::move(playing));
+    if (playing_->walker) Worker::get().free_later(std::move(playing_->walker));
     clock_.set_period(1000 / model->model->frame_rate);
     leg_sent_ = 0;
   }
@@ -131,11 +154,11 @@ class Pca final : public ModelUser {
   void move(double seconds) {
     const Perf::Frame frame(perf());
     walking_->advance(seconds);
-    own_->add(values_->of(walking_->pose()));
+    playing_->own.add(playing_->values.of(walking_->pose()));
     const auto contact = walking_->contact();
     if (!contact) return;
     const char* const foot = *contact == Foot::right ? "right" : "left";
-    if (own_->contact(*contact)) info_.add(own_->scores()).send("scores");
+    if (playing_->own.contact(*contact)) info_.add(playing_->own.scores()).send("scores");
     info_.add(foot).send("step");
     info_.add(foot).send("contact");
   }
@@ -147,15 +170,13 @@ class Pca final : public ModelUser {
       leg_sent_ = leg;
       pose_.add(leg).send("leg");
     }
-    pose_.add(values_->of(walking_->pose())).send("pose");
+    pose_.add(playing_->values.of(walking_->pose())).send("pose");
   }
 
   ColdInlet cold_;
   Outlet pose_, info_;
   std::unique_ptr<CycleWalking> walking_;
-  std::unique_ptr<PoseValues> values_;
-  std::unique_ptr<CycleProjector> projector_, own_;
-  std::vector<float> given_;
+  std::shared_ptr<Playing> playing_;
   Metronome clock_{[this] {
     if (ready_for_frame()) step(1 / model()->model->frame_rate);
   }};

@@ -12,12 +12,18 @@ constexpr std::pair<const char*, SpeedLaw> laws[] = {
 
 class SpeedWalking final : public CycleWalking {
  public:
-  void take(const SharedModel& model) override {
-    if (!model->speeds)
-      throw Error("model " + model->model->name +
-                  " has no walks over speed, so [gait.pca speed] cannot walk in it; train it with "
-                  "clips of several speeds");
-    auto walker = std::make_unique<SpeedWalker>(model->model, model->speeds);
+  std::function<std::shared_ptr<void>(const SharedModel&)> prepare() const override {
+    return [](const SharedModel& model) -> std::shared_ptr<void> {
+      if (!model->speeds)
+        throw Error("model " + model->model->name +
+                    " has no walks over speed, so [gait.pca speed] cannot walk in it; train it "
+                    "with clips of several speeds");
+      return std::make_shared<SpeedWalker>(model->model, model->speeds);
+    };
+  }
+
+  std::shared_ptr<void> take(const SharedModel& model, std::shared_ptr<void> made) override {
+    auto walker = std::static_pointer_cast<SpeedWalker>(std::move(made));
     if (!subject_.empty() && walker->set_subject(subject_) == Taken::refused)
       throw Error(no_subject(*walker, subject_, model->model->name));
     walker->set_speed(static_cast<float>(speed_));
@@ -27,7 +33,8 @@ class SpeedWalking final : public CycleWalking {
     walker->settle();
     if (walker_) walker->scrub(walker_->phase());
     model_ = model;
-    walker_ = std::move(walker);
+    std::swap(walker_, walker);
+    return walker;
   }
 
   bool set(const Arguments& arguments) override {
@@ -89,9 +96,11 @@ class SpeedWalking final : public CycleWalking {
   double phase() const noexcept override { return walker_->phase(); }
   float cadence() const noexcept override { return walker_->cadence(); }
   std::optional<Foot> contact() const noexcept override { return walker_->contact(); }
-  const CycleSpace& space() const noexcept override {
-    const Model& model = *model_->model;
-    return model.shared_speed_space ? *model.shared_speed_space : model.speed_spaces.front().space;
+  SpaceOf space_of() const override {
+    return [](const Model& model) -> const CycleSpace& {
+      return model.shared_speed_space ? *model.shared_speed_space
+                                      : model.speed_spaces.front().space;
+    };
   }
   float leg_length() const noexcept override { return walker_->leg_length(); }
 
@@ -109,7 +118,7 @@ class SpeedWalking final : public CycleWalking {
   }
 
   SharedModel model_;
-  std::unique_ptr<SpeedWalker> walker_;
+  std::shared_ptr<SpeedWalker> walker_;
   double speed_ = 1.2;  // m/s
   float leg_ = 0, cadence_ = 0;
   std::string subject_;

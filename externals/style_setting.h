@@ -26,6 +26,7 @@ class StyleSetting {
   // One weight per style of the model; empty when nothing was set. Throws Error naming a style that
   // the model lacks, and those it has.
   std::vector<float> weights(const Model& model) const;
+  bool operator==(const StyleSetting&) const = default;
   void clear() { mix_.clear(), by_order_.clear(); }
 
   // The message that restores it, if anything was set.

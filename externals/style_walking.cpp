@@ -14,31 +14,38 @@ constexpr double most_score = 6;  // deviations
 
 class StyleWalking final : public CycleWalking {
  public:
-  void take(const SharedModel& model) override {
-    if (!model->cycles)
-      throw Error("model " + model->model->name +
-                  " has no space of styles, so [gait.pca style] cannot walk in it; train it from "
-                  "walks whose styles are named");
-    auto walker = std::make_unique<StyleWalker>(model->model, seed_, model->cycles);
-    walker->set_variation(variation_);
-    walker->set_exaggeration(exaggeration_);
-    walker->set_through_neutral(through_neutral_);
-    walker->set_cadence(cadence_);
-    for (const auto& [score, value] : pins_) walker->pin(score, value);
-    set_styles(*walker, *model->model);
-    if (walker_) walker->scrub(walker_->phase());
+  std::function<std::shared_ptr<void>(const SharedModel&)> prepare() const override {
+    return [now = settings_](const SharedModel& model) -> std::shared_ptr<void> {
+      if (!model->cycles)
+        throw Error("model " + model->model->name +
+                    " has no space of styles, so [gait.pca style] cannot walk in it; train it from "
+                    "walks whose styles are named");
+      auto walking = std::make_shared<Walking>(now, model);
+      walking->apply();
+      return walking;
+    };
+  }
+
+  std::shared_ptr<void> take(const SharedModel& model, std::shared_ptr<void> made) override {
+    auto walking = std::static_pointer_cast<Walking>(std::move(made));
+    if (!(walking->settings == settings_)) {  // told something since it was made
+      walking->settings = settings_;
+      walking->apply();
+    }
+    if (walking_) walking->walker.scrub(walking_->walker.phase());
     model_ = model;
-    walker_ = std::move(walker);
+    std::swap(walking_, walking);
+    return walking;
   }
 
   bool set(const Arguments& arguments) override {
     const Model* model = model_ ? model_->model.get() : nullptr;
-    StyleSetting before = styles_;
-    if (styles_.take(arguments, model)) {
+    StyleSetting before = settings_.styles;
+    if (settings_.styles.take(arguments, model)) {
       try {
-        if (walker_) set_styles(*walker_, *model);
+        if (walking_) settings_.set_styles(walking_->walker, *model);
       } catch (const Error& error) {
-        styles_ = std::move(before);
+        settings_.styles = std::move(before);
         arguments.fail(error.what());
       }
       return true;
@@ -47,57 +54,86 @@ class StyleWalking final : public CycleWalking {
   }
 
   void dump(Outlet& info) const override {
-    styles_.dump(info);
-    info.add(variation_).send("variation");
-    info.add(exaggeration_).send("exaggeration");
-    info.add(through_neutral_ ? 1 : 0).send("neutral");
-    info.add(cadence_).send("cadence");
-    info.add(static_cast<double>(seed_)).send("seed");
-    for (const auto& [score, value] : pins_) info.add(score).add(value).send("score");
+    settings_.styles.dump(info);
+    info.add(settings_.variation).send("variation");
+    info.add(settings_.exaggeration).send("exaggeration");
+    info.add(settings_.through_neutral ? 1 : 0).send("neutral");
+    info.add(settings_.cadence).send("cadence");
+    info.add(static_cast<double>(settings_.seed)).send("seed");
+    for (const auto& [score, value] : settings_.pins) info.add(score).add(value).send("score");
   }
 
-  void advance(double seconds) noexcept override { walker_->advance(seconds); }
-  void scrub(double phase) noexcept override { walker_->scrub(phase); }
-  void reset() noexcept override { walker_->restart(seed_); }
-  std::span<const Eigen::Quaternionf> pose() const noexcept override { return walker_->pose(); }
-  double phase() const noexcept override { return walker_->phase(); }
-  float cadence() const noexcept override { return walker_->cadence(); }
-  std::optional<Foot> contact() const noexcept override { return walker_->contact(); }
-  const CycleSpace& space() const noexcept override { return model_->model->style_space->space; }
+  void advance(double seconds) noexcept override { walking_->walker.advance(seconds); }
+  void scrub(double phase) noexcept override { walking_->walker.scrub(phase); }
+  void reset() noexcept override { walking_->walker.restart(settings_.seed); }
+  std::span<const Eigen::Quaternionf> pose() const noexcept override {
+    return walking_->walker.pose();
+  }
+  double phase() const noexcept override { return walking_->walker.phase(); }
+  float cadence() const noexcept override { return walking_->walker.cadence(); }
+  std::optional<Foot> contact() const noexcept override { return walking_->walker.contact(); }
+  SpaceOf space_of() const override {
+    return [](const Model& model) -> const CycleSpace& { return model.style_space->space; };
+  }
 
  private:
-  void set_styles(StyleWalker& walker, const Model& model) const {
-    const std::vector<float> weights = styles_.weights(model);
-    if (weights.empty() || walker.set_weights(weights)) return;
-    std::string cannot;
-    for (std::size_t i = 0; i < weights.size(); ++i)
-      if (weights[i] > 0 && model.style_space->styles[i].cycles == 0)
-        cannot += (cannot.empty() ? "" : ", ") + model.styles[i];
-    throw Error("no straight cycle of " + cannot + " was captured: it cannot be walked");
-  }
+  struct Settings {
+    StyleSetting styles;
+    float variation = 1, exaggeration = 1, cadence = 0;
+    bool through_neutral = false;
+    std::uint64_t seed = 1;
+    std::map<int, float> pins;  // deviations
+    bool operator==(const Settings&) const = default;
+
+    void set_styles(StyleWalker& walker, const Model& model) const {
+      const std::vector<float> weights = styles.weights(model);
+      if (weights.empty() || walker.set_weights(weights)) return;
+      std::string cannot;
+      for (std::size_t i = 0; i < weights.size(); ++i)
+        if (weights[i] > 0 && model.style_space->styles[i].cycles == 0)
+          cannot += (cannot.empty() ? "" : ", ") + model.styles[i];
+      throw Error("no straight cycle of " + cannot + " was captured: it cannot be walked");
+    }
+  };
+
+  struct Walking {
+    Walking(const Settings& told, const SharedModel& in)
+        : settings(told), model(in), walker(in->model, told.seed, in->cycles) {}
+    void apply() {
+      walker.set_variation(settings.variation);
+      walker.set_exaggeration(settings.exaggeration);
+      walker.set_through_neutral(settings.through_neutral);
+      walker.set_cadence(settings.cadence);
+      for (const auto& [score, value] : settings.pins) walker.pin(score, value);
+      settings.set_styles(walker, *model->model);
+    }
+    Settings settings;
+    SharedModel model;
+    StyleWalker walker;
+  };
 
   bool set_number(const Arguments& arguments) {
     const auto selector = arguments.selector();
     if (selector == "variation") {
       arguments.expect_count(1);
-      variation_ = static_cast<float>(arguments.number(0, 0, 2));
-      if (walker_) walker_->set_variation(variation_);
+      settings_.variation = static_cast<float>(arguments.number(0, 0, 2));
+      if (walking_) walking_->walker.set_variation(settings_.variation);
     } else if (selector == "exaggeration") {
       arguments.expect_count(1);
-      exaggeration_ = static_cast<float>(arguments.number(0, -1, 3));
-      if (walker_) walker_->set_exaggeration(exaggeration_);
+      settings_.exaggeration = static_cast<float>(arguments.number(0, -1, 3));
+      if (walking_) walking_->walker.set_exaggeration(settings_.exaggeration);
     } else if (selector == "neutral") {
       arguments.expect_count(1);
-      through_neutral_ = arguments.flag(0);
-      if (walker_) walker_->set_through_neutral(through_neutral_);
+      settings_.through_neutral = arguments.flag(0);
+      if (walking_) walking_->walker.set_through_neutral(settings_.through_neutral);
     } else if (selector == "cadence") {
       arguments.expect_count(1);
-      cadence_ = static_cast<float>(arguments.number(0, 0, 8));
-      if (walker_) walker_->set_cadence(cadence_);
+      settings_.cadence = static_cast<float>(arguments.number(0, 0, 8));
+      if (walking_) walking_->walker.set_cadence(settings_.cadence);
     } else if (selector == "seed") {
       arguments.expect_count(1);
-      seed_ = static_cast<std::uint64_t>(arguments.integer(0, 0, 16777216));
-      if (walker_) walker_->restart(seed_);
+      settings_.seed = static_cast<std::uint64_t>(arguments.integer(0, 0, 16777216));
+      if (walking_) walking_->walker.restart(settings_.seed);
     } else {
       return false;
     }
@@ -109,45 +145,41 @@ class StyleWalking final : public CycleWalking {
     if (selector != "score" && selector != "pin" && selector != "free") return false;
     if (selector == "free" && arguments.size() == 1 && arguments.is_symbol(0)) {
       if (arguments.symbol(0) != "all") arguments.fail_at(0, "a score's number or 'all'");
-      for (const auto& [score, value] : pins_)
-        if (walker_) walker_->free(score);
-      pins_.clear();
+      for (const auto& [score, value] : settings_.pins)
+        if (walking_) walking_->walker.free(score);
+      settings_.pins.clear();
       return true;
     }
     arguments.expect_count(selector == "score" ? 2 : 1);
-    const int most = walker_ ? walker_->components() - 1 : 999;
+    const int most = walking_ ? walking_->walker.components() - 1 : 999;
     const int score = arguments.integer(0, 0, most);
     if (selector == "free") {
-      pins_.erase(score);
-      if (walker_) walker_->free(score);
+      settings_.pins.erase(score);
+      if (walking_) walking_->walker.free(score);
       return true;
     }
     // `pin` holds a score where it is.
     float value = 0;
     if (selector == "score")
       value = static_cast<float>(arguments.number(1, -most_score, most_score));
-    else if (walker_)
+    else if (walking_)
       value = scores_now(score);
     else
       arguments.fail("expected after the model " +
                      std::string("is there: nothing can be held yet"));
-    pins_[score] = value;
-    if (walker_) walker_->pin(score, value);
+    settings_.pins[score] = value;
+    if (walking_) walking_->walker.pin(score, value);
     return true;
   }
 
   float scores_now(int score) const {
-    const double deviation = std::sqrt(space().variances[score]);
-    return deviation > 0 ? static_cast<float>(walker_->scores()[score] / deviation) : 0.0f;
+    const double deviation = std::sqrt(space_of()(*model_->model).variances[score]);
+    return deviation > 0 ? static_cast<float>(walking_->walker.scores()[score] / deviation) : 0.0f;
   }
 
   SharedModel model_;
-  std::unique_ptr<StyleWalker> walker_;
-  StyleSetting styles_;
-  float variation_ = 1, exaggeration_ = 1, cadence_ = 0;
-  bool through_neutral_ = false;
-  std::uint64_t seed_ = 1;
-  std::map<int, float> pins_;  // deviations
+  std::shared_ptr<Walking> walking_;
+  Settings settings_;
 };
 
 }  // namespace

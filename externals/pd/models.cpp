@@ -76,8 +76,11 @@ bool ModelUser::ready_for_frame() {
   return false;
 }
 
-void ModelUser::change(const SharedModel& model) {
+void ModelUser::change(const SharedModel& model, std::shared_ptr<void> ready) {
   try {
+    prepared_ = std::move(ready);
+    if (!prepared_)
+      if (const Prepare make = prepare()) prepared_ = make(model);
     take(model, model_);
     model_ = model;
     said_waiting_ = false;
@@ -85,6 +88,7 @@ void ModelUser::change(const SharedModel& model) {
     const std::string line = std::string(box_.name()) + ": " + error.what();
     say_error(box_, line.c_str());
   }
+  prepared_.reset();
 }
 
 struct Models::Inside {
@@ -113,7 +117,7 @@ void Models::add(ModelUser* user) {
   Inside::Entry& entry = inside_->entries[user->name_];
   entry.users.push_back(user);
   if (entry.model) {
-    user->change(entry.model);
+    user->change(entry.model, nullptr);
   } else if (user->name_ == demo_model_name && !entry.busy) {
     load(user->name_, load_demo_model, false, [](const std::string& reason) {
       pd_error(nullptr, "gait: the built-in model cannot be made: %s", reason.c_str());
@@ -123,45 +127,67 @@ void Models::add(ModelUser* user) {
 
 void Models::remove(ModelUser* user) { std::erase(inside_->entries[user->name_].users, user); }
 
-void Models::publish(const std::string& name, SharedModel model) {
+// What the worker made: the model, and for those who used the name when it began what they need.
+struct Models::Loaded {
+  SharedModel model;
+  std::string reason;  // when there is none
+  struct User {
+    ModelUser* user;
+    ModelUser::Prepare prepare;
+    std::shared_ptr<void> prepared;
+  };
+  std::vector<User> users;
+};
+
+void Models::publish(const std::string& name, const Loaded& loaded) {
   Inside::Entry& entry = inside_->entries[name];
   SharedModel old = std::move(entry.model);
-  entry.model = std::move(model);
+  entry.model = loaded.model;
   const std::vector<ModelUser*> users = entry.users;
-  for (ModelUser* user : users) user->change(entry.model);
+  for (ModelUser* user : users) {
+    const auto at = std::ranges::find(loaded.users, user, &Loaded::User::user);
+    user->change(entry.model, at == loaded.users.end() ? nullptr : at->prepared);
+  }
   for (ModelUser* user : users)
     // What one user sends may make another one go.
-    if (std::ranges::find(entry.users, user) != entry.users.end() && user->model_ == entry.model)
+    if (std::ranges::find(entry.users, user) != entry.users.end() && user->model_ == loaded.model)
       user->say_ready();
   if (old) Worker::get().free_later(std::move(old));
 }
 
 void Models::load(const std::string& name, std::function<SharedModel()> make, bool blocking,
                   std::function<void(const std::string&)> failed) {
-  struct Result {
-    SharedModel model;
-    std::string reason;
-  };
   Inside::Entry& entry = inside_->entries[name];
   const int number = ++entry.loading;
   entry.busy = true;
-  const auto result = std::make_shared<Result>();
+  const auto loaded = std::make_shared<Loaded>();
+  for (ModelUser* user : entry.users)
+    if (ModelUser::Prepare prepare = user->prepare())
+      loaded->users.push_back({user, std::move(prepare), nullptr});
   Worker::get().run(
-      [result, make = std::move(make)] {
+      [loaded, make = std::move(make)] {
         try {
-          result->model = make();
+          loaded->model = make();
         } catch (const std::exception& error) {
-          result->reason = error.what();
+          loaded->reason = error.what();
+          return;
+        }
+        for (Loaded::User& user : loaded->users) {
+          try {
+            user.prepared = user.prepare(loaded->model);
+          } catch (const std::exception&) {
+            // It will be tried again, and said, when the user takes the model.
+          }
         }
       },
-      [this, name, number, result, failed = std::move(failed)] {
-        Inside::Entry& loaded = inside_->entries[name];
-        if (number != loaded.loading) return;
-        loaded.busy = false;
-        if (result->model)
-          publish(name, result->model);
+      [this, name, number, loaded, failed = std::move(failed)] {
+        Inside::Entry& now = inside_->entries[name];
+        if (number != now.loading) return;
+        now.busy = false;
+        if (loaded->model)
+          publish(name, *loaded);
         else
-          failed(result->reason);
+          failed(loaded->reason);
       },
       blocking);
 }

@@ -58,8 +58,20 @@ class ModelUser {
   // told once what is waited for.
   bool ready_for_frame();
 
-  // Plays this model from now on; nothing comes between two calls but whole ticks. Throws Error
-  // when it cannot serve: then it is said, and the one before stays. `old`: null for the first.
+  // What playing a model needs and takes long to make. The function it gives is called on the
+  // worker when there is time, so it must hold copies of all it needs of this box; it may throw
+  // Error. None: nothing takes long.
+  using Prepare = std::function<std::shared_ptr<void>(const SharedModel& model)>;
+  virtual Prepare prepare() { return {}; }
+  // What prepare() made, while take() runs.
+  template <class T>
+  std::shared_ptr<T> prepared() const {
+    return std::static_pointer_cast<T>(prepared_);
+  }
+
+  // Plays this model from now on; nothing comes between two calls but whole ticks. Quick: music
+  // goes on meanwhile. Throws Error when it cannot serve: then it is said, and the one before
+  // stays. `old`: null for the first.
   virtual void take(const SharedModel& model, const SharedModel& old) = 0;
   // After every user of the name has taken it: `ready NAME` at the info outlet.
   virtual void say_ready() = 0;
@@ -70,11 +82,13 @@ class ModelUser {
 
  private:
   friend class Models;
-  void change(const SharedModel& model);
+  // `ready`: made on the worker, else null.
+  void change(const SharedModel& model, std::shared_ptr<void> ready);
 
   Box& box_;
   std::string name_;
   SharedModel model_;
+  std::shared_ptr<void> prepared_;
   bool joined_ = false, said_waiting_ = false;
   Perf perf_;
   SlowError slow_error_;
@@ -85,10 +99,9 @@ class Models {
   static Models& get();
 
   SharedModel find(const std::string& name) const;
-  // Swaps for all users of the name, then tells them. The old one is freed on the worker.
-  void publish(const std::string& name, SharedModel model);
-
-  // Runs `make` on the worker (or here, `blocking`) and publishes what it gives. `failed` gets the
+  // Runs `make` on the worker (or here, `blocking`), then all that its users have to prepare; then
+  // swaps for all users of the name between two ticks, and tells them. The old one is freed on the
+  // worker. `failed` gets the
   // reason on Pd's thread when it threw; nothing has changed then. A later load of the same name
   // makes an earlier one that is still running count for nothing.
   void load(const std::string& name, std::function<SharedModel()> make, bool blocking,
@@ -97,6 +110,8 @@ class Models {
  private:
   friend class ModelUser;
   Models();
+  struct Loaded;
+  void publish(const std::string& name, const Loaded& loaded);
   void add(ModelUser* user);
   void remove(ModelUser* user);
   struct Inside;
