@@ -9,6 +9,7 @@ namespace {
 
 void setup_all() {
   using namespace gait::pd;
+  setup_bvh();
   setup_model();
   setup_pca();
   setup_phase();

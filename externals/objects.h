@@ -3,6 +3,7 @@
 
 namespace gait::pd {
 
+void setup_bvh();
 void setup_model();
 void setup_pca();
 void setup_phase();

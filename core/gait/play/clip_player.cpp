@@ -62,6 +62,11 @@ bool ClipPlayer::set_motion(std::shared_ptr<const BodyMotion> motion) noexcept {
   return true;
 }
 
+void ClipPlayer::set_loop(bool on) noexcept {
+  wanted_loop_ = {};
+  looping_ = on;
+}
+
 void ClipPlayer::set_loop(double begin, double end) noexcept {
   wanted_loop_ = {begin, end};
   looping_ = true;

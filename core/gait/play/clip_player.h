@@ -39,7 +39,8 @@ class ClipPlayer {
 
   // How fast time goes by: 1 as captured, below 0 backwards.
   void set_speed(double speed) noexcept { speed_ = speed; }
-  void set_loop(bool on) noexcept { looping_ = on; }
+  // The whole walk, or not at all.
+  void set_loop(bool on) noexcept;
   // Seconds, half open. What lies outside the walk is cut off; where less than a frame is left, the
   // whole walk loops.
   void set_loop(double begin, double end) noexcept;
@@ -78,7 +79,7 @@ class ClipPlayer {
 
   double speed_ = 1;
   bool looping_ = false;
-  Range wanted_loop_{0, 1e9};
+  Range wanted_loop_;  // empty: everything
   double time_ = 0;
   bool begun_ = false;  // the frame at time_ has been made
   Place path_;          // where the walk's own origin lies, and its turn
