@@ -17,8 +17,11 @@ class Outlet {
   // A message outlet. Outlets stand in the order they are made, left to right.
   explicit Outlet(Box& box) : outlet_(outlet_new(&box.object, nullptr)) {}
 
-  void reserve(int atoms) { atoms_.reserve(static_cast<std::size_t>(atoms)); }
-  // Room for a message of so many atoms whose places are written one by one.
+  // Room for messages of so many atoms, so that none has to be made at frame rate.
+  void reserve(int atoms) {
+    atoms_.reserve(static_cast<std::size_t>(atoms));
+    sending_.reserve(static_cast<std::size_t>(atoms));
+  }
   Outlet& add(double number);
   Outlet& add(int number) { return add(static_cast<double>(number)); }
   Outlet& add(float number) { return add(static_cast<double>(number)); }

@@ -71,6 +71,13 @@ std::string Patch::whole() const { return text_ + cords_; }
 
 bool has_pd() { return std::string(GAIT_PD_PROGRAM).find("NOTFOUND") == std::string::npos; }
 
+bool can_watch() { return std::string(GAIT_PD_PRELOAD).empty(); }
+
+int watched_allocations(const PdRun& run) {
+  const std::size_t at = run.log.find("watch: ");
+  return at == std::string::npos ? -1 : std::atoi(run.log.c_str() + at + 7);
+}
+
 PdRun run_pd(const Patch& patch, const RunOptions& options) {
   namespace fs = std::filesystem;
   PdRun run;
@@ -83,6 +90,7 @@ PdRun run_pd(const Patch& patch, const RunOptions& options) {
                                                    : "";
   const std::string home = options.home.empty() ? "" : "HOME='" + options.home + "' ";
   const std::string command = "cd '" + run.folder + "' && " + home + std::string(GAIT_PD_PRELOAD) +
+                              (options.watched ? "LD_PRELOAD=" GAIT_ALLOCATION_WATCH : "") +
                               " timeout 120 " GAIT_PD_PROGRAM
                               " -nogui -noprefs -noaudio -nomidi -batch -r 48000 -stderr " +
                               library + " -open test.pd 2>&1";

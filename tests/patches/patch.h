@@ -47,10 +47,16 @@ struct PdRun {
   std::vector<std::string> errors() const;
 };
 
+// Whether allocations can be watched here: a sanitizer has an allocator of its own.
+bool can_watch();
+// How many there were; -1 when nothing was watched.
+int watched_allocations(const PdRun& run);
+
 // Where there is a pd to run, with the library built.
 bool has_pd();
 struct RunOptions {
-  std::string home;  // Pd sees only what is installed there; empty: the library just built
+  std::string home;      // Pd sees only what is installed there; empty: the library just built
+  bool watched = false;  // what is allocated between [watch]'s 1 and 0 is counted
 };
 PdRun run_pd(const Patch& patch, const RunOptions& options = {});
 

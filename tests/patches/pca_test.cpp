@@ -135,6 +135,29 @@ TEST(PcaObject, projects_a_walk_that_comes_in_and_is_restored_by_its_dump) {
   EXPECT_NE(std::ranges::find(info, "variation 0"), info.end());
 }
 
+TEST(PcaObject, allocates_nothing_while_it_walks) {
+  GAIT_NEEDS_PD();
+  if (!can_watch()) GTEST_SKIP() << "the sanitizer has an allocator of its own";
+  for (const char* kind : {"style", "speed"}) {
+    Patch patch;
+    patch.object("gait.model gait-demo -blocking");
+    const int watch = patch.object("watch"),
+              pca = patch.object(std::string("gait.pca gait-demo ") + kind);
+    const int other = patch.object(std::string("gait.pca gait-demo ") + kind);
+    patch.connect(pca, 0, other, 1);  // projects it
+    std::vector<std::string> frames(100, "bang");
+    patch.at_start(frames, pca);  // buffers grow once
+    patch.at_start({"1"}, watch);
+    frames.insert(frames.end(), {"advance 0.3", "phase 0.3"});
+    patch.at_start(frames, pca);
+    patch.at_start({"0"}, watch);
+    patch.quit_after(10);
+    const PdRun run = run_pd(patch, {.home = "", .watched = true});
+    ASSERT_EQ(run.exit_code, 0) << run.log;
+    EXPECT_EQ(watched_allocations(run), 0) << run.log;
+  }
+}
+
 TEST(PcaObject, refuses_what_it_cannot_use_with_one_line_each) {
   GAIT_NEEDS_PD();
   PcaPatch patch("gait-demo style");

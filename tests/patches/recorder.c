@@ -1,5 +1,9 @@
-/* [recorder FILE]: writes every message it gets as a line, numbers in full precision, so that tests
-   can compare what a patch sends with what the core computes. Only for tests. */
+/* Objects for tests only.
+   [recorder FILE]: writes every message it gets as a line, numbers in full precision, so that tests
+   can compare what a patch sends with what the core computes.
+   [watch]: 1 begins to count what Pd's thread allocates, 0 ends it and posts `watch: N`. */
+#define _GNU_SOURCE
+#include <dlfcn.h>
 #include <m_pd.h>
 #include <stdio.h>
 
@@ -35,9 +39,26 @@ static void recorder_free(t_recorder* x) {
   if (x->file) fclose(x->file);
 }
 
+static t_class* watch_class;
+
+static void watch_float(t_object* x, t_float on) {
+  int (*watch)(int) = (int (*)(int))dlsym(RTLD_DEFAULT, "gait_watch");
+  if (!watch) {
+    pd_error(x, "watch: nobody counts here");
+    return;
+  }
+  const int count = watch(on != 0);
+  if (on == 0) post("watch: %d", count);
+}
+
+static void* watch_new(void) { return pd_new(watch_class); }
+
 __attribute__((visibility("default"))) void recorder_setup(void);
 void recorder_setup(void) {
   recorder_class = class_new(gensym("recorder"), (t_newmethod)recorder_new, (t_method)recorder_free,
                              sizeof(t_recorder), CLASS_DEFAULT, A_SYMBOL, A_NULL);
   class_addanything(recorder_class, (t_method)recorder_anything);
+  watch_class = class_new(gensym("watch"), (t_newmethod)watch_new, 0, sizeof(t_object),
+                          CLASS_DEFAULT, A_NULL);
+  class_addfloat(watch_class, (t_method)watch_float);
 }

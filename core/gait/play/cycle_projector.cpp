@@ -50,7 +50,7 @@ bool CycleProjector::contact(Foot foot) noexcept {
     if (left_ < 2 || left_ > last - 2) left_ = 0;
     project();
   }
-  taken_.col(0) = taken_.col(last).eval();
+  if (last > 0) taken_.col(0) = taken_.col(last);
   count_ = 1, left_ = 0;
   whole_ = true;
   return complete;
