@@ -101,7 +101,8 @@ inline void expect_same(const Body& a, const Body& b) {
 }
 
 inline void expect_same(const PlayDefaults& a, const PlayDefaults& b) {
-  const auto& [decoder, lag, temper, past, future, strength, style_memory, style_temper] = a;
+  const auto& [decoder, lag, temper, past, future, strength, style_memory, style_temper,
+               usual_distance] = a;
   expect_same(decoder, b.decoder);
   expect_same(lag, b.lag);
   expect_same(temper, b.temper);
@@ -110,6 +111,7 @@ inline void expect_same(const PlayDefaults& a, const PlayDefaults& b) {
   expect_same(strength, b.strength);
   expect_same(style_memory, b.style_memory);
   expect_same(style_temper, b.style_temper);
+  expect_same(usual_distance, b.usual_distance);
 }
 
 inline void expect_same(const Training& a, const Training& b) {

@@ -216,15 +216,18 @@ class Selection {
 
   void validate(const std::vector<Held>& folds) {
     StyleScores scores;
+    std::vector<float> distances;
     double error = 0, accuracy = 0, count = 0, right_styles = 0, styled = 0;
     for (std::size_t fold = 0; fold < folds.size(); ++fold)
       for (std::size_t i = 0; i < folds[fold].played.size(); ++i) {
         error += folds[fold].errors[i];
         accuracy += folds[fold].label_accuracies[i];
         count += 1;
+        const PlayedSequence& played = folds[fold].played[i];
+        for (int frame = played.begin; frame < played.end; ++frame)
+          distances.push_back(played.decisions[frame].distance);
         const int style = learnt_.observed.sequences[folds[fold].sequence[i]].style;
         if (style < 0 || !taught_elsewhere(style, static_cast<int>(fold))) continue;
-        const PlayedSequence& played = folds[fold].played[i];
         double right = 0;
         for (int frame = played.begin; frame < played.end; ++frame) {
           const Eigen::VectorXf posterior = played.style_posteriors.col(frame);
@@ -243,6 +246,13 @@ class Selection {
     training.validated_step_accuracy = count > 0 ? accuracy / count : 0;
     training.validated_style_accuracy = styled > 0 ? right_styles / styled : 0;
     PlayDefaults& play = learnt_.model.play;
+    if (!distances.empty()) {
+      const auto usual =
+          distances.begin() +
+          static_cast<std::ptrdiff_t>(usual_share * static_cast<double>(distances.size() - 1));
+      std::nth_element(distances.begin(), usual, distances.end());
+      play.usual_distance = std::max(1e-3f, *usual);
+    }
     play.style_temper = best_temper(scores, play.style_temper);
     CalibrationError calibration;
     for (std::size_t i = 0; i < scores.truth.size(); ++i) {
@@ -274,6 +284,7 @@ class Selection {
 
   // Small enough that posteriors stay above the least float, so that scores come back from them.
   static constexpr double probing_temper = 0.01;
+  static constexpr double usual_share = 0.98;  // of held-out frames
 
   const LearningTask& task_;
   const SelectionOptions& options_;

@@ -80,6 +80,9 @@ struct PlayDefaults {
   double strength = 1;         // of the mapping
   double style_memory = 1;     // seconds over which style scores leak
   double style_temper = 0.02;  // exponent on style likelihoods
+  // Decision::distance that 98 % of what was held out stayed below: beyond it, a motion is unlike
+  // what was taught.
+  double usual_distance = 1.25;
 };
 
 // How the model came about and how good it is, for `gait info`.

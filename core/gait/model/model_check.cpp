@@ -171,6 +171,7 @@ void check_play(const PlayDefaults& play) {
   expect_within(play.strength, -1000, 1000, "play.strength");
   expect_within(play.style_memory, 0, 1e6, "play.style_memory");
   expect_within(play.style_temper, 0, 1000, "play.style_temper");
+  expect_within(play.usual_distance, 1e-6, 1e6, "play.usual_distance");
 }
 
 void check_training(const Training& training) {

@@ -138,7 +138,8 @@ PlayDefaults play(const ModelField& field) {
           .future = field["future"].number(),
           .strength = field["strength"].number(),
           .style_memory = field["style_memory"].number(),
-          .style_temper = field["style_temper"].number()};
+          .style_temper = field["style_temper"].number(),
+          .usual_distance = field["usual_distance"].number()};
 }
 
 Training training(const ModelField& field) {

@@ -102,7 +102,8 @@ Json node(const PlayDefaults& play) {
           {"future", play.future},
           {"strength", play.strength},
           {"style_memory", play.style_memory},
-          {"style_temper", play.style_temper}};
+          {"style_temper", play.style_temper},
+          {"usual_distance", play.usual_distance}};
 }
 
 Json node(const Training& training) {
