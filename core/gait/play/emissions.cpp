@@ -36,17 +36,20 @@ Emissions::Emissions(std::shared_ptr<const StateTables> tables, const InputLayou
     : tables_(std::move(tables)),
       layout_(layout),
       whitening_(layout.size()),
-      log_likelihoods_(tables_->states.size()) {}
+      log_likelihoods_(tables_->states.size()),
+      squared_distances_(
+          Eigen::VectorXf::Zero(static_cast<Eigen::Index>(log_likelihoods_.size()))) {}
 
 std::span<const float> Emissions::of(const Eigen::Ref<const Eigen::VectorXf>& x,
                                      int known) noexcept {
   const int stage = tables_->stage_of(known, layout_);
-  const int count = tables_->stages[stage];
+  seen_ = tables_->stages[stage];
   whitening_.take(*tables_, x);
   for (std::size_t state = 0; state < tables_->states.size(); ++state) {
     const PlayedState& played = tables_->states[state];
-    log_likelihoods_[state] =
-        played.log_constant[stage] - 0.5f * whitening_.innovation(played, count).squaredNorm();
+    const float squared = whitening_.innovation(played, seen_).squaredNorm();
+    squared_distances_[static_cast<Eigen::Index>(state)] = squared;
+    log_likelihoods_[state] = played.log_constant[stage] - 0.5f * squared;
   }
   return log_likelihoods_;
 }

@@ -33,6 +33,11 @@ class Emissions {
   // state, over all labels.
   std::span<const float> of(const Eigen::Ref<const Eigen::VectorXf>& x, int known) noexcept;
 
+  // Of that observation: its squared Mahalanobis distance from each state's mean, and over how many
+  // entries.
+  const Eigen::VectorXf& squared_distances() const noexcept { return squared_distances_; }
+  int seen() const noexcept { return seen_; }
+
   void use(const std::shared_ptr<const StateTables>& tables) noexcept { tables_ = tables; }
 
  private:
@@ -40,6 +45,8 @@ class Emissions {
   InputLayout layout_;
   Whitening whitening_;
   std::vector<float> log_likelihoods_;
+  Eigen::VectorXf squared_distances_;
+  int seen_ = 0;
 };
 
 }  // namespace gait
