@@ -1,8 +1,5 @@
 #include "gait/play/reconstructor.h"
 
-#include <algorithm>
-#include <cmath>
-
 #include "gait/error.h"
 #include "gait/model/body_pose.h"
 
@@ -17,32 +14,17 @@ const Body& body_of(const Model& model) {
   return *model.body;
 }
 
-// From `above` to `joint`, over whatever joints a rig has between hips and thigh.
-Eigen::Vector3d place_at_rest(const Skeleton& skeleton, int joint, int above) {
-  Eigen::Vector3d place = Eigen::Vector3d::Zero();
-  for (; joint >= 0 && joint != above; joint = skeleton.joints[joint].parent)
-    place += skeleton.joints[joint].offset;
-  return place;
-}
-
 }  // namespace
 
 Reconstructor::Reconstructor(std::shared_ptr<const Model> model, const PlayerSettings& settings)
     : player_(model, settings),
       clock_(model->frame_rate, static_cast<int>(body_of(*model).input_joints.size())),
       root_(model->body->skeleton, body_roles(*model->body), model->frame_rate),
-      causal_heading_(
-          static_cast<int>(std::lround(model->body->heading_window * model->frame_rate))),
+      hips_heading_(*model->body, model->frame_rate),
+      hips_input_(HipsHeading::input_of(*model->body)),
       values_(model->input.values) {
   const Body& body = *model->body;
   for (const auto& reference : body.references) references_.push_back(reference.cast<float>());
-  const JointRoles roles = body_roles(body);
-  right_to_left_thigh_ = (place_at_rest(body.skeleton, roles.left.thigh, roles.hips) -
-                          place_at_rest(body.skeleton, roles.right.thigh, roles.hips))
-                             .cast<float>();
-  const auto hips = std::find(body.input_joints.begin(), body.input_joints.end(), roles.hips);
-  if (hips != body.input_joints.end())
-    hips_input_ = static_cast<int>(hips - body.input_joints.begin());
   arrived_.assign(body.input_joints.size(), Eigen::Quaternionf::Identity());
   for (std::size_t i = 0; i < arrived_.size(); ++i) arrived_[i] = references_[body.input_joints[i]];
   usable_ = arrived_;
@@ -55,7 +37,7 @@ void Reconstructor::reset(const Eigen::Vector3f& place) noexcept {
   player_.reset();
   clock_.reset();
   root_.reset(place);
-  causal_heading_.reset();
+  hips_heading_.reset();
   taken_ = made_ = waiting_ = 0;
 }
 
@@ -81,7 +63,7 @@ void Reconstructor::take() noexcept {
   taken.time = clock_.time();
   taken.inputs = arrived_;
   if (hips_input_ >= 0) {
-    taken.heading = causal_heading_.advance(arrived_[hips_input_] * right_to_left_thigh_);
+    taken.heading = hips_heading_.advance(arrived_[hips_input_]);
     taken.inputs[hips_input_] = about_vertical(-taken.heading) * arrived_[hips_input_];
   }
   for (std::size_t i = 0; i < taken.inputs.size(); ++i)
@@ -117,7 +99,7 @@ bool Reconstructor::next() noexcept {
     // Time jumped: what came before does not belong to the same motion.
     if (clock_.first_of_run() && taken_ > 0) {
       player_.reset();
-      causal_heading_.reset();
+      hips_heading_.reset();
       root_.reset(root_.position());
       made_ = taken_;
     }

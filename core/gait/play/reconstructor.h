@@ -10,8 +10,8 @@
 #include <span>
 #include <vector>
 
-#include "gait/motion/heading.h"
 #include "gait/play/frame_clock.h"
+#include "gait/play/hips_heading.h"
 #include "gait/play/player.h"
 #include "gait/play/root_motion.h"
 
@@ -65,10 +65,9 @@ class Reconstructor {
   Player player_;
   FrameClock clock_;
   RootMotion root_;
-  CausalHeading<float> causal_heading_;
+  HipsHeading hips_heading_;
   std::vector<Eigen::Quaternionf> references_;
-  Eigen::Vector3f right_to_left_thigh_;
-  int hips_input_ = -1;                      // index into the inputs, -1: not measured
+  int hips_input_;                           // index into the inputs, -1: not measured
   std::vector<Eigen::Quaternionf> arrived_;  // the frame just pulled from the clock
   std::vector<Eigen::Quaternionf> usable_;   // the same with missing joints held
   std::vector<bool> missing_;

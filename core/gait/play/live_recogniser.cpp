@@ -1,0 +1,54 @@
+#include "gait/play/live_recogniser.h"
+
+namespace gait {
+
+float unlikeness(float distance) noexcept {
+  constexpr float half = 1.25f;
+  if (!(distance > 0)) return 0;
+  const float ratio = half / distance;
+  return 1 / (1 + ratio * ratio * ratio);
+}
+
+LiveRecogniser::LiveRecogniser(std::shared_ptr<const Model> model,
+                               const RecogniserSettings& settings,
+                               std::shared_ptr<const StateTables> tables, double longest_gap)
+    : stream_(model, longest_gap),
+      recogniser_(model, settings, std::move(tables)),
+      standing_(*model),
+      choice_(model->frame_rate) {}
+
+void LiveRecogniser::begin_anew() noexcept {
+  recogniser_.reset();
+  standing_.reset();
+  choice_.reset();
+  next_is_first_ = true;
+}
+
+void LiveRecogniser::reset() noexcept {
+  stream_.reset();
+  begin_anew();
+}
+
+void LiveRecogniser::set_missing(int stream, bool missing) noexcept {
+  stream_.set_missing(stream, missing);
+  const int begin = stream_.first_value(stream);
+  for (int i = 0; i < recogniser_.model().inputs[stream].size; ++i) {
+    recogniser_.set_missing(begin + i, missing);
+    standing_.set_missing(begin + i, missing);
+  }
+}
+
+bool LiveRecogniser::next() noexcept {
+  while (stream_.next()) {
+    if (stream_.first_of_run()) begin_anew();
+    recogniser_.set_walking(standing_.advance(stream_.values()));
+    if (!recogniser_.advance(stream_.values())) continue;
+    first_ = next_is_first_;
+    next_is_first_ = false;
+    choice_.advance(recogniser_.styles());
+    return true;
+  }
+  return false;
+}
+
+}  // namespace gait
