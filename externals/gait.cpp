@@ -13,6 +13,7 @@ void setup_all() {
   setup_model();
   setup_pca();
   setup_phase();
+  setup_train();
 }
 
 }  // namespace
@@ -30,3 +31,4 @@ GAIT_ENTRY(setup_gait0x2esynth)
 GAIT_ENTRY(setup_gait0x2epca)
 GAIT_ENTRY(setup_gait0x2ephase_tilde)
 GAIT_ENTRY(setup_gait0x2eskeleton)
+GAIT_ENTRY(setup_gait0x2etrain)

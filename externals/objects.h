@@ -7,5 +7,6 @@ void setup_bvh();
 void setup_model();
 void setup_pca();
 void setup_phase();
+void setup_train();
 
 }  // namespace gait::pd

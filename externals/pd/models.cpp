@@ -116,13 +116,19 @@ SharedModel Models::find(const std::string& name) const {
 void Models::add(ModelUser* user) {
   Inside::Entry& entry = inside_->entries[user->name_];
   entry.users.push_back(user);
-  if (entry.model) {
+  if (entry.model)
     user->change(entry.model, nullptr);
-  } else if (user->name_ == demo_model_name && !entry.busy) {
-    load(user->name_, load_demo_model, false, [](const std::string& reason) {
-      pd_error(nullptr, "gait: the built-in model cannot be made: %s", reason.c_str());
-    });
-  }
+  else if (user->name_ == demo_model_name)
+    want_demo();
+}
+
+void Models::want_demo() {
+  const std::string name(demo_model_name);
+  const Inside::Entry& entry = inside_->entries[name];
+  if (entry.model || entry.busy) return;
+  load(name, load_demo_model, false, [](const std::string& reason) {
+    pd_error(nullptr, "gait: the built-in model cannot be made: %s", reason.c_str());
+  });
 }
 
 void Models::remove(ModelUser* user) { std::erase(inside_->entries[user->name_].users, user); }

@@ -99,6 +99,8 @@ class Models {
   static Models& get();
 
   SharedModel find(const std::string& name) const;
+  // Has the built-in model loaded, unless it is there or on its way.
+  void want_demo();
   // Runs `make` on the worker (or here, `blocking`), then all that its users have to prepare; then
   // swaps for all users of the name between two ticks, and tells them. The old one is freed on the
   // worker. `failed` gets the

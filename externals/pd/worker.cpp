@@ -1,5 +1,10 @@
 #include "pd/worker.h"
 
+#ifdef __linux__
+#include <sys/resource.h>
+#include <unistd.h>
+#endif
+
 #include <atomic>
 #include <condition_variable>
 #include <deque>
@@ -23,6 +28,8 @@ struct Job {
 }  // namespace
 
 struct Worker::Inside {
+  explicit Inside(int how_nice) : nice(how_nice) {}
+  const int nice;
   std::mutex mutex;
   std::condition_variable wake;
   std::deque<std::shared_ptr<Job>> waiting;
@@ -32,6 +39,10 @@ struct Worker::Inside {
   std::thread thread{[this] { work(); }};
 
   void work() {
+#ifdef __linux__
+    // Of this thread and those it makes.
+    if (nice > 0) setpriority(PRIO_PROCESS, static_cast<id_t>(gettid()), nice);
+#endif
     for (;;) {
       std::shared_ptr<Job> job;
       {
@@ -65,10 +76,15 @@ struct Worker::Inside {
   }
 };
 
-Worker::Worker() : inside_(new Inside) { inside_->thread.detach(); }
+Worker::Worker(int nice) : inside_(new Inside(nice)) { inside_->thread.detach(); }
 
 Worker& Worker::get() {
-  static Worker* const worker = new Worker;
+  static Worker* const worker = new Worker(0);
+  return *worker;
+}
+
+Worker& Worker::patient() {
+  static Worker* const worker = new Worker(10);
   return *worker;
 }
 

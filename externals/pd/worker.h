@@ -9,9 +9,12 @@ namespace gait::pd {
 
 class Worker {
  public:
-  // There is one, made when it is first needed and never destroyed: Pd leaves by exit(), and a
-  // thread in a static object would end the process in disorder.
+  // Made when it is first needed and never destroyed: Pd leaves by exit(), and a thread in a static
+  // object would end the process in disorder.
   static Worker& get();
+  // Another for what takes seconds, behind everybody else: nobody's model waits for it, and it
+  // gives way to sound.
+  static Worker& patient();
 
   // `work` runs on the worker, then `finish` on Pd's thread; neither may throw. With `blocking`
   // both run before this returns, on this thread: for batch patches, where logical time runs away
@@ -22,7 +25,7 @@ class Worker {
   void free_later(std::shared_ptr<const void> what);
 
  private:
-  Worker();
+  explicit Worker(int nice);
   struct Inside;
   Inside* inside_;
 };

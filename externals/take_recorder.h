@@ -1,0 +1,55 @@
+// What [gait.train] has recorded: takes in memory, and on disk as soon as each has ended.
+#pragma once
+
+#include <memory>
+#include <span>
+#include <string>
+#include <vector>
+
+#include "gait/judge/takes_file.h"
+
+namespace gait::pd {
+
+class TakeRecorder {
+ public:
+  using Takes = std::vector<std::shared_ptr<const RecordedTake>>;
+  static constexpr double longest_take = 600;  // seconds
+  static constexpr int most_frames = 72000;    // of a take: 600 s at 120 frames per second
+
+  // `journal`: file that takes are written to as they end; what an earlier session left there is
+  // moved aside first. `blocking`: write at once instead of on the worker.
+  TakeRecorder(std::string journal, bool blocking);
+
+  // The file with takes of an earlier session; empty when there is none.
+  const std::string& left_behind() const { return left_behind_; }
+
+  void start(const std::string& label, int inputs, int outputs);
+  bool recording() const { return recording_ != nullptr; }
+  // A frame at this time in seconds; false when the take is full. Frames without progress in time
+  // replace the one before.
+  bool add(double time, std::span<const float> inputs, std::span<const float> outputs);
+  // The take just ended; null when nothing was recorded.
+  std::shared_ptr<const RecordedTake> stop();
+
+  void add_take(RecordedTake take);
+  void remove(int index);
+  bool undo();  // takes the last change of the list back
+  const Takes& takes() const { return takes_; }
+
+ private:
+  void change(Takes next);
+  void write(const std::shared_ptr<const RecordedTake>& take);
+
+  std::string journal_, left_behind_;
+  bool blocking_, begun_ = false;
+  std::unique_ptr<RecordedTake> recording_;
+  double begin_ = 0;
+  Takes takes_;
+  std::vector<Takes> before_;
+};
+
+// Where takes of this name are written: $XDG_STATE_HOME/gait/NAME.takes, else under
+// ~/.local/state.
+std::string journal_path(const std::string& name);
+
+}  // namespace gait::pd
