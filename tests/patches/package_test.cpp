@@ -43,7 +43,7 @@ TEST(Package, runs_from_an_empty_home) {
   patch.connect(walker, 0, seen);
   patch.at_start({"bang"}, walker);
   patch.quit_after(10);
-  const PdRun walked = run_pd(patch, {.home = home});
+  const PdRun walked = run_pd(patch, {.home = home, .state = "", .watched = false});
   EXPECT_EQ(walked.exit_code, 0) << walked.log;
   EXPECT_EQ(walked.errors(), std::vector<std::string>()) << walked.log;
   EXPECT_NE(walked.log.find("SEEN: pose "), std::string::npos) << walked.log;

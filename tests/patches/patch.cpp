@@ -55,6 +55,10 @@ void Patch::record(int from, int outlet, const std::string& name) {
   connect(from, outlet, object("recorder " + name));
 }
 
+void Patch::file(const std::string& name, const std::string& contents) {
+  files_.emplace_back(name, contents);
+}
+
 void Patch::quit_after(double milliseconds) {
   const int begin = object("loadbang"), delay = object("delay " + std::to_string(milliseconds)),
             quit = message("; pd quit 0");
@@ -89,11 +93,15 @@ PdRun run_pd(const Patch& patch, const RunOptions& options) {
                                                      "' -lib recorder -lib gait"
                                                    : "";
   const std::string home = options.home.empty() ? "" : "HOME='" + options.home + "' ";
-  const std::string command = "cd '" + run.folder + "' && " + home + std::string(GAIT_PD_PRELOAD) +
-                              (options.watched ? "LD_PRELOAD=" GAIT_ALLOCATION_WATCH : "") +
-                              " timeout 120 " GAIT_PD_PROGRAM
-                              " -nogui -noprefs -noaudio -nomidi -batch -r 48000 -stderr " +
-                              library + " -open test.pd 2>&1";
+  for (const auto& [file, contents] : patch.files_)
+    std::ofstream(run.folder + "/" + file) << contents;
+  const std::string state =
+      "XDG_STATE_HOME='" + (options.state.empty() ? run.folder : options.state) + "' ";
+  const std::string command =
+      "cd '" + run.folder + "' && " + home + state + std::string(GAIT_PD_PRELOAD) +
+      (options.watched ? "LD_PRELOAD=" GAIT_ALLOCATION_WATCH : "") +
+      " timeout 120 " GAIT_PD_PROGRAM " -nogui -noprefs -noaudio -nomidi -batch -r 48000 -stderr " +
+      library + " -open test.pd 2>&1";
   FILE* pipe = popen(command.c_str(), "r");
   std::array<char, 4096> piece;
   while (const std::size_t count = fread(piece.data(), 1, piece.size(), pipe))

@@ -7,6 +7,9 @@
 
 namespace gait::testing {
 
+struct PdRun;
+struct RunOptions;
+
 // The text of a patch. Each piece gets a number, from 0; pieces are connected by number.
 class Patch {
  public:
@@ -21,6 +24,8 @@ class Patch {
   void at_start(const std::vector<std::string>& messages, int to, int inlet = 0);
   // Records what an outlet sends, each message a line; see PdRun::recorded.
   void record(int from, int outlet, const std::string& name);
+  // A file beside the patch.
+  void file(const std::string& name, const std::string& contents);
   // The patch ends itself after so many milliseconds of its own time, all loading done.
   void quit_after(double milliseconds);
   // Switches DSP on when the patch is loaded.
@@ -32,6 +37,8 @@ class Patch {
   int add(const std::string& kind, const std::string& text);
   int pieces_ = 0;
   std::string text_, cords_;
+  std::vector<std::pair<std::string, std::string>> files_;
+  friend PdRun run_pd(const Patch& patch, const RunOptions& options);
 };
 
 struct PdRun {
@@ -56,6 +63,7 @@ int watched_allocations(const PdRun& run);
 bool has_pd();
 struct RunOptions {
   std::string home;      // Pd sees only what is installed there; empty: the library just built
+  std::string state;     // folder for what objects keep between sessions; empty: the run's own
   bool watched = false;  // what is allocated between [watch]'s 1 and 0 is counted
 };
 PdRun run_pd(const Patch& patch, const RunOptions& options = {});

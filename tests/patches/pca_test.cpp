@@ -152,7 +152,7 @@ TEST(PcaObject, allocates_nothing_while_it_walks) {
     patch.at_start(frames, pca);
     patch.at_start({"0"}, watch);
     patch.quit_after(10);
-    const PdRun run = run_pd(patch, {.home = "", .watched = true});
+    const PdRun run = run_pd(patch, {.home = "", .state = "", .watched = true});
     ASSERT_EQ(run.exit_code, 0) << run.log;
     EXPECT_EQ(watched_allocations(run), 0) << run.log;
   }

@@ -1,0 +1,161 @@
+// [gait.train]: taught in a patch, in time, as a performer would.
+#include <gtest/gtest.h>
+
+#include <cmath>
+#include <filesystem>
+#include <numbers>
+#include <random>
+
+#include "gait/judge/takes_file.h"
+#include "gait/model/model_file.h"
+#include "patches/patch.h"
+
+namespace gait::testing {
+namespace {
+
+// For [qlist]: milliseconds to wait, then who gets what.
+struct Score {
+  std::string text;
+  std::mt19937_64 random{7};
+
+  void say(const std::string& message, double after = 0) {
+    text += std::to_string(after) + " teach " + message + ";\n";
+  }
+  void gesture(const std::string& label, int frames) {
+    std::normal_distribution<double> noise(0, 0.02);
+    std::uniform_real_distribution<double> share(-1, 1);
+    say("record " + label);
+    const double size = 1 + 0.2 * share(random), count = frames * (1 + 0.2 * share(random));
+    for (int frame = 0; frame < count; ++frame) {
+      const double s = 2 * std::numbers::pi * frame / count;
+      const double x = label == "circle" ? std::cos(s)
+                       : label == "line" ? s / 3 - 1
+                                         : std::sin(2 * s);
+      const double y = label == "circle" ? std::sin(s) : label == "line" ? 0.2 * s : std::cos(s);
+      say("in " + std::to_string(size * x + noise(random)) + " " +
+              std::to_string(size * y + noise(random)),
+          20);
+    }
+    say("stop");
+  }
+};
+
+struct TrainPatch : Patch {
+  int train;
+  TrainPatch(const std::string& arguments, const std::string& score) {
+    train = object("gait.train " + arguments);
+    record(train, 0, "done");
+    record(train, 1, "info");
+    const int teach = object("receive teach");
+    connect(teach, 0, train);
+    file("score.txt", score);
+    at_start({"read score.txt, rewind, bang"}, object("qlist"));
+  }
+};
+
+std::string gestures() {
+  Score score;
+  for (int take = 0; take < 6; ++take)
+    for (const char* label : {"circle", "line", "wave"}) score.gesture(label, 40);
+  return score.text;
+}
+
+TEST(TrainObject, learns_gestures_and_says_how_well) {
+  GAIT_NEEDS_PD();
+  TrainPatch patch("moves -in 2 -blocking",
+                   gestures() + "100 teach train;\n10 teach write moves.gait;\n");
+  const int model = patch.object("gait.model moves");
+  patch.record(model, 1, "model");
+  patch.quit_after(30000);
+  const PdRun run = run_pd(patch);
+  ASSERT_EQ(run.exit_code, 0) << run.log;
+  EXPECT_EQ(run.errors(), std::vector<std::string>()) << run.log;
+  const auto done = run.numbers("done", "done");
+  ASSERT_EQ(done.size(), 1u) << run.log;
+  EXPECT_GE(done[0][0], 0.98);
+  EXPECT_EQ(std::ranges::count_if(run.recorded("info"),
+                                  [](const auto& line) { return line.starts_with("take "); }),
+            18);
+  EXPECT_EQ(std::ranges::count(run.recorded("model"), "ready moves"), 1);
+  const Model learnt = read_model(run.folder + "/moves.gait");
+  ASSERT_EQ(learnt.labels.size(), 3u);
+  EXPECT_EQ(learnt.labels[0].name, "circle");
+  EXPECT_EQ(learnt.input.values, 2);
+}
+
+TEST(TrainObject, loses_no_take_when_pd_ends) {
+  GAIT_NEEDS_PD();
+  std::string state = ::testing::TempDir() + "gait_state_XXXXXX";
+  ASSERT_NE(mkdtemp(state.data()), nullptr);
+  const RunOptions options{.home = "", .state = state, .watched = false};
+  {
+    TrainPatch patch("moves -in 2 -blocking", gestures());
+    patch.quit_after(30000);
+    EXPECT_EQ(run_pd(patch, options).exit_code, 0);
+  }
+  EXPECT_EQ(read_takes(state + "/gait/moves.takes").size(), 18u);
+  TrainPatch patch("moves -in 2 -blocking", "");
+  patch.at_start({"add " + state + "/gait/moves.takes.1", "remove 0", "list"}, patch.train);
+  patch.quit_after(10);
+  const PdRun run = run_pd(patch, options);
+  EXPECT_NE(run.log.find("takes of an earlier session are in " + state), std::string::npos)
+      << run.log;
+  const auto info = run.recorded("info");
+  EXPECT_EQ(info.size(), 18u + 17u) << run.log;
+  EXPECT_TRUE(info[0].starts_with("take 0 circle ")) << info[0];
+  EXPECT_TRUE(info[18].starts_with("take 0 line ")) << info[18];
+}
+
+TEST(TrainObject, learns_walks_from_poses) {
+  GAIT_NEEDS_PD();
+  Patch patch;
+  patch.object("gait.model gait-demo -blocking");
+  const int train = patch.object("gait.train mine -blocking"), walker = patch.object("gait.pca");
+  patch.record(train, 0, "done");
+  patch.record(train, 1, "info");
+  patch.connect(walker, 0, train);
+  // Two styles, ten seconds each, twice.
+  std::string score;
+  for (int take = 0; take < 2; ++take)
+    for (const char* style : {"sad", "proud"})
+      score += std::string("0 walk style ") + style + ";\n0 walk start;\n1000 teach record " +
+               style + ";\n10000 teach stop;\n0 walk stop;\n";
+  score += "10 teach train;\n";
+  patch.file("score.txt", score);
+  for (const auto& [name, to] : {std::pair{"teach", train}, {"walk", walker}})
+    patch.connect(patch.object(std::string("receive ") + name), 0, to);
+  patch.at_start({"read score.txt, rewind, bang"}, patch.object("qlist"));
+  patch.quit_after(50000);
+  const PdRun run = run_pd(patch);
+  ASSERT_EQ(run.exit_code, 0) << run.log;
+  EXPECT_EQ(run.errors(), std::vector<std::string>()) << run.log;
+  const auto done = run.numbers("done", "done");
+  ASSERT_EQ(done.size(), 1u) << run.log;
+  EXPECT_GE(done[0][0], 0.9);
+  EXPECT_EQ(std::ranges::count(run.recorded("info"), "ready mine"), 1);
+}
+
+TEST(TrainObject, refuses_what_it_cannot_use) {
+  GAIT_NEEDS_PD();
+  TrainPatch patch("moves -in 2 -blocking", "");
+  patch.at_start({"train", "stop", "record", "undo", "cancel", "remove 0", "write x.gait",
+                  "add nowhere.takes", "hello", "in 1 2 3", "pose 1 2"},
+                 patch.train);
+  patch.object("gait.train");
+  patch.object("gait.train moves2 -out 2");
+  patch.quit_after(10);
+  const PdRun run = run_pd(patch);
+  ASSERT_EQ(run.exit_code, 0) << run.log;
+  for (const char* text :
+       {"gait.train: train: there are no takes to learn from",
+        "gait.train: stop: nothing is being recorded", "gait.train: record: expected 1 argument",
+        "gait.train: undo: there is nothing to undo", "gait.train: cancel: nothing is being learnt",
+        "gait.train: remove: there are no takes", "gait.train: write: expected after 'train'",
+        "gait.train: add: no file 'nowhere.takes'", "gait.train: hello: no such message",
+        "gait.train: in: expected 2 numbers, got 3", "gait.train: pose: expected 'in'",
+        "gait.train: expected a name for what is learnt", "gait.train: expected -in beside -out"})
+    EXPECT_NE(run.log.find(text), std::string::npos) << text << "\n" << run.log;
+}
+
+}  // namespace
+}  // namespace gait::testing
