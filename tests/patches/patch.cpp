@@ -36,6 +36,11 @@ int Patch::add(const std::string& kind, const std::string& text) {
   return pieces_++;
 }
 
+int Patch::subpatch(const std::string& name) {
+  text_ += "#N canvas 0 0 450 300 " + name + " 0;\n#X restore 10 10 pd " + name + ";\n";
+  return pieces_++;
+}
+
 void Patch::connect(int from, int outlet, int to, int inlet) {
   cords_ += "#X connect " + std::to_string(from) + " " + std::to_string(outlet) + " " +
             std::to_string(to) + " " + std::to_string(inlet) + ";\n";

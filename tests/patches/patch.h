@@ -19,6 +19,8 @@ class Patch {
 
   int object(const std::string& text) { return add("obj", text); }
   int message(const std::string& text) { return add("msg", text); }
+  // An empty canvas of this name: `; pd-NAME obj ...` fills it.
+  int subpatch(const std::string& name);
   void connect(int from, int outlet, int to, int inlet = 0);
   // Sends these messages to `to`, in this order, when the patch is loaded. `;` in them is Pd's.
   void at_start(const std::vector<std::string>& messages, int to, int inlet = 0);
