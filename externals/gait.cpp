@@ -10,10 +10,12 @@ namespace {
 void setup_all() {
   using namespace gait::pd;
   setup_bvh();
+  setup_map();
   setup_model();
   setup_pca();
   setup_phase();
   setup_train();
+  setup_viterbi();
 }
 
 }  // namespace

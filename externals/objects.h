@@ -4,9 +4,11 @@
 namespace gait::pd {
 
 void setup_bvh();
+void setup_map();
 void setup_model();
 void setup_pca();
 void setup_phase();
 void setup_train();
+void setup_viterbi();
 
 }  // namespace gait::pd

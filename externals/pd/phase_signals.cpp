@@ -48,6 +48,8 @@ void PhaseSignals::fill(int count) noexcept {
   }
   std::fill_n(cadence, count, running_ ? t_sample(clock_.cadence()) : t_sample(0));
   if (count_ > 0) ticker_.after(0);
+  moved_ = clock_getlogicaltime();
+  silent_ = false;
   const std::chrono::duration<double, std::micro> took = std::chrono::steady_clock::now() - begin;
   microseconds_ += took.count();
   most_ = std::max(most_, took.count());
@@ -59,6 +61,16 @@ void PhaseSignals::tell() {
   const int count = count_;
   count_ = 0;
   for (int i = 0; i < count; ++i) contact_(steps[static_cast<std::size_t>(i)]);
+}
+
+void PhaseSignals::keep_going() {
+  constexpr double longest_block = 0.25;  // seconds; after that DSP is off
+  const double passed = clock_gettimesince(moved_) / 1000;
+  if (!running_ || (!silent_ && passed < longest_block)) return;
+  silent_ = true;
+  moved_ = clock_getlogicaltime();
+  clock_.advance(passed);
+  for (const PhaseClock::Crossing& crossing : clock_.crossings()) contact_(crossing.step);
 }
 
 void PhaseSignals::report(Outlet& info) {

@@ -29,6 +29,10 @@ class PhaseSignals {
   // Whether contacts and the ramp may go on: off, phase~ stands and right~ and left~ are silent.
   void set_running(bool running) { running_ = running; }
 
+  // With every frame: while no DSP runs, the clock goes on by what time has passed, so that
+  // contacts are told without sound too.
+  void keep_going();
+
   // From the box's dsp method; `first`: index of phase~ among the signals.
   void dsp(t_signal** signals, int first = 0);
 
@@ -49,6 +53,8 @@ class PhaseSignals {
   // Steps that began since they were told; more than fit are not worth telling.
   std::array<int, 64> steps_{};
   int count_ = 0;
+  double moved_ = clock_getlogicaltime();  // when the clock was moved last
+  bool silent_ = false;                    // no DSP runs
   double microseconds_ = 0, most_ = 0;
   int blocks_ = 0;
   Ticker ticker_{[this] { tell(); }};

@@ -1,0 +1,317 @@
+// [gait.viterbi~ NAME -signals n | -mc]: recognises steps and style (T14) in frames that come as
+// messages or signals, and runs a phase clock beside the walk.
+#include "gait/play/live_recogniser.h"
+#include "gait/play/observation_message.h"
+#include "gait/play/sender_clock.h"
+#include "listening.h"
+#include "multichannel.h"
+#include "objects.h"
+#include "pd/models.h"
+#include "pd/phase_signals.h"
+#include "pd/worker.h"
+#include "signal_input.h"
+#include "single_inputs.h"
+
+namespace gait::pd {
+
+namespace {
+
+bool is_flag(const Arguments& arguments, int i) {
+  return arguments.is_symbol(i) && arguments.symbol(i).starts_with('-');
+}
+
+class Viterbi final : public ModelUser {
+ public:
+  Viterbi(Box& box, const Arguments& arguments)
+      : ModelUser(box, arguments.size() > 0 && !is_flag(arguments, 0) ? arguments.text(0) : ""),
+        signals_(box, [this](int step) { touch(step); }),
+        message_(box),
+        info_(box) {
+    int at = arguments.size() > 0 && !is_flag(arguments, 0) ? 1 : 0;
+    while (at < arguments.size()) {
+      const std::string flag = arguments.symbol(at++);
+      if (flag == "-signals" && signal_input_.inlets() == 0)
+        signal_input_.make_inlets(arguments.integer(at++, 1, 512));
+      else if (flag == "-mc" && signal_input_.inlets() == 0)
+        signal_input_.make_multichannel();
+      else
+        arguments.fail_at(at - 1, "-signals N or -mc");
+    }
+    join();
+  }
+
+  void in(const Arguments& arguments) { whole_frame(arguments, false); }
+  void pose(const Arguments& arguments) { whole_frame(arguments, true); }
+  void list(const Arguments& arguments) {
+    whole_frame(arguments, playing_ && arguments.size() == static_cast<int>(playing_->pose.size()));
+  }
+
+  template <void (*Set)(const Arguments&, const Model&, InputStream&)>
+  void single(const Arguments& arguments) {
+    if (ready_for_frame()) Set(arguments, *model()->model, live().stream());
+  }
+  void bang(const Arguments&) {
+    if (!ready_for_frame()) return;
+    const Perf::Frame frame(perf());
+    arrived(live().stream().push_collected(time_of_frame()), "bang");
+  }
+
+  void decoder(const Arguments& arguments) {
+    listening_.decoder(arguments);
+    if (playing_ && !listening_.same_recogniser(playing_->recognising))
+      play(std::make_shared<Playing>(*model(), listening_.recognising()), *model()->model);
+  }
+  void mask(const Arguments& arguments) {
+    listening_.mask(arguments, model() ? model()->model.get() : nullptr);
+    if (playing_) listening_.apply(live(), *model()->model);
+  }
+  template <void (Listening::*Set)(const Arguments&)>
+  void set(const Arguments& arguments) {
+    (listening_.*Set)(arguments);
+    if (playing_) listening_.apply(live(), *model()->model);
+    sender_.set_rate(listening_.rate());
+  }
+  void resend(const Arguments&) {
+    tell(streaming_, "stream");
+    if (streaming_) tell(walking_, "walking");
+  }
+
+  void reset(const Arguments&) {
+    if (playing_) live().reset();
+    sender_.reset();
+    signals_.clock().reset();
+    signals_.clock().set_walking(walking_);
+    step_ = style_ = -1;
+  }
+  void dump(const Arguments&) { listening_.dump(info_); }
+  void perf_message(const Arguments&) { perf().report(info_); }
+  void print(const Arguments&) {
+    if (!playing_) {
+      post("%s: waiting for %s", box().name(), model_name().c_str());
+      return;
+    }
+    const Model& learnt = *model()->model;
+    post("%s: recognises with %s, %d frames late; %s, %s, label %s, phase %.3f", box().name(),
+         model_name().c_str(), live().recogniser().lag(), streaming_ ? "streaming" : "no stream",
+         walking_ ? "walking" : "standing", learnt.labels[live().decision().label].name.c_str(),
+         static_cast<double>(live().decision().phase));
+  }
+
+  void dsp(t_signal** signals) {
+    const int inlets = signal_input_.inlets();
+    for (int i = 0; i < PhaseSignals::outlets; ++i) make_single(&signals[inlets + i]);
+    signal_input_.dsp(signals);
+    signals_.dsp(signals, inlets);
+  }
+
+ private:
+  // All that a model needs here and that takes long to make.
+  struct Playing {
+    Playing(const PlayModel& model, const RecogniserSettings& settings)
+        : live(model.model, settings, model.states),
+          recognising(settings),
+          observation(*model.model),
+          in(static_cast<std::size_t>(model.model->input.values), 0.0f),
+          pose(model.model->body ? 3 * model.model->body->references.size() : 0, 0.0f) {}
+    LiveRecogniser live;
+    RecogniserSettings recognising;
+    ObservationMessage observation;
+    std::vector<float> in, pose;
+  };
+
+  Prepare prepare() override {
+    return [settings = listening_.recognising()](const SharedModel& model) {
+      return std::make_shared<Playing>(*model, settings);
+    };
+  }
+  void take(const SharedModel& model, const SharedModel&) override {
+    auto playing = prepared<Playing>();
+    if (!listening_.same_recogniser(playing->recognising))  // told since
+      playing = std::make_shared<Playing>(*model, listening_.recognising());
+    for (const std::string& unknown : listening_.forget_unknown(*model->model)) {
+      const std::string line =
+          std::string(box().name()) + ": mask: no input '" + unknown + "' in " + model_name();
+      say_error(box(), line.c_str());
+    }
+    play(std::move(playing), *model->model);
+  }
+  void say_ready() override { info_.add_text(model_name()).send("ready"); }
+
+  void play(std::shared_ptr<Playing> playing, const Model& learnt) {
+    listening_.apply(playing->live, learnt);
+    message_.reserve(playing->observation.longest());
+    info_.reserve(static_cast<int>(learnt.styles.size()) + 8);
+    signal_input_.set_rate(learnt.frame_rate);
+    signals_.replace(playing->live.recogniser().clock_settings());
+    signals_.clock().set_walking(walking_);
+    sender_.reset();
+    step_ = style_ = -1;
+    std::swap(playing_, playing);
+    if (playing) Worker::get().free_later(std::move(playing));
+  }
+  LiveRecogniser& live() { return playing_->live; }
+
+  double now() const { return clock_gettimesince(begin_) / 1000; }
+  double time_of_frame() { return sender_.time_of_arrival(now()); }
+
+  void whole_frame(const Arguments& arguments, bool body) {
+    if (!ready_for_frame()) return;
+    const Perf::Frame frame(perf());
+    const std::span<float> values(body ? playing_->pose : playing_->in);
+    const char* const what = arguments.selector().data();
+    if (values.empty() || !arguments.read(values)) {
+      refuse(what, arguments.size(), body);
+      return;
+    }
+    const double time = time_of_frame();
+    arrived(body ? live().stream().push_body(time, values) : live().stream().push(time, values),
+            what);
+  }
+  void signal_frame(double time, std::span<const float> values) {
+    if (!ready_for_frame()) return;
+    const Perf::Frame frame(perf());
+    const bool body = values.size() != playing_->in.size();
+    if (body && values.size() != playing_->pose.size()) {
+      refuse("signals", static_cast<int>(values.size()), false);
+      return;
+    }
+    arrived(body ? live().stream().push_body(time, values) : live().stream().push(time, values),
+            "signals");
+  }
+  void refuse(const char* what, int count, bool body) {
+    perf().drop();
+    slow_error().say([&] {
+      const std::string in = std::to_string(playing_->in.size()),
+                        pose = std::to_string(playing_->pose.size());
+      const std::string expected = what == std::string_view("in") ? in
+                                   : body                         ? pose
+                                   : playing_->pose.empty()       ? in
+                                                                  : in + " or " + pose;
+      return std::string(box().name()) + ": " + what + ": expected " + expected + " numbers, got " +
+             std::to_string(count);
+    });
+  }
+
+  void arrived(FrameClock::Arrival arrival, const char* what) {
+    if (arrival == FrameClock::Arrival::rejected) {
+      perf().drop();
+      slow_error().say([&] {
+        return std::string(box().name()) + ": " + what +
+               ": expected finite numbers, at a time after the frame before's (who sends frames "
+               "together says their rate)";
+      });
+      return;
+    }
+    lost_.after(1000 * listening_.timeout());
+    const bool returned = !streaming_;
+    if (returned) {
+      streaming_ = true;
+      stop_.cancel();
+      tell(true, "stream");
+    }
+    // What is sent may come back and change what plays here.
+    const std::shared_ptr<Playing> playing = playing_;
+    while (playing == playing_ && playing->live.next()) decided(*playing);
+  }
+
+  // Right to left: info, then what goes to the map.
+  void decided(Playing& playing) {
+    const LiveRecogniser& live = playing.live;
+    const Model& learnt = live.recogniser().model();
+    const Decision& decision = live.decision();
+    signals_.keep_going();
+    if (live.first_of_run() || live.walking() != walking_) {
+      walking_ = live.walking();
+      signals_.clock().set_walking(walking_);
+      tell(walking_, "walking");
+    }
+    const PhaseEstimate& estimate = live.recogniser().phase_estimate();
+    signals_.clock().observe(estimate.seen, estimate.certainty, live.estimate_late());
+    info_.add(1000 * live.decision_late()).send("latency");
+    info_.add(live.unlike()).send("unlike");
+    const std::span<const float> styles = live.recogniser().styles();
+    if (live.style() != style_ && live.style() >= 0) {
+      style_ = live.style();
+      info_.add_text(learnt.styles[style_]).add(styles[style_]).send("style");
+    }
+    if (!styles.empty()) info_.add(styles).send("styles");
+    const std::string& label = learnt.labels[decision.label].name;
+    info_.add_text(label).add(decision.state).add(decision.log_likelihood).send("state");
+    if (walking_ && decision.label != step_) {
+      step_ = decision.label;
+      info_.add_text(label).send("step");
+    }
+    info_.add(decision.cadence).send("cadence");
+    info_.add(decision.phase).send("phase");
+    message_.add(playing.observation.write(live.recogniser())).send("obs");
+  }
+
+  void touch(int step) { info_.add(step % 2 == 0 ? "right" : "left").send("contact"); }
+
+  void tell(bool on, const char* selector) {
+    info_.add(on ? 1 : 0).send(selector);
+    message_.add(on ? 1 : 0).send(selector);
+  }
+
+  // No frame came for too long.
+  void lost() {
+    if (!streaming_) return;
+    signals_.keep_going();
+    streaming_ = false;
+    const PhaseClock& clock = signals_.clock();
+    message_.add(clock.phase()).add(clock.cadence()).add(live().recogniser().styles());
+    message_.send("place");
+    tell(false, "stream");
+    live().reset();
+    sender_.reset();
+    if (const auto seconds = listening_.going_on()) {
+      if (*seconds > 0)
+        stop_.after(1000 * *seconds);
+      else
+        signals_.clock().set_walking(false);
+    }
+  }
+
+  PhaseSignals signals_;
+  Outlet message_, info_;
+  Listening listening_;
+  std::shared_ptr<Playing> playing_;
+  SenderClock sender_;
+  SignalInput signal_input_{
+      box(), [this](double time, std::span<const float> values) { signal_frame(time, values); }};
+  const double begin_ = clock_getlogicaltime();
+  bool streaming_ = false, walking_ = true;
+  int step_ = -1, style_ = -1;  // as told last
+  Ticker lost_{[this] { lost(); }};
+  Ticker stop_{[this] { signals_.clock().set_walking(false); }};
+};
+
+}  // namespace
+
+void setup_viterbi() {
+  if (!may_register("gait.viterbi~")) return;
+  Class<Viterbi>("gait.viterbi~", multichannel_class)
+      .message<&Viterbi::in>("in")
+      .message<&Viterbi::pose>("pose")
+      .message<&Viterbi::single<&set_joint>>("joint")
+      .message<&Viterbi::single<&set_quaternion>>("quat")
+      .message<&Viterbi::single<&set_euler>>("euler")
+      .bang<&Viterbi::bang>()
+      .list<&Viterbi::list>()
+      .message<&Viterbi::decoder>("decoder")
+      .message<&Viterbi::mask>("mask")
+      .message<&Viterbi::set<&Listening::rate>>("rate")
+      .message<&Viterbi::set<&Listening::memory>>("memory")
+      .message<&Viterbi::set<&Listening::margin>>("margin")
+      .message<&Viterbi::set<&Listening::hold>>("hold")
+      .message<&Viterbi::set<&Listening::timeout>>("timeout")
+      .message<&Viterbi::set<&Listening::on_lost>>("onlost")
+      .message<&Viterbi::resend>("resend")
+      .message<&Viterbi::reset>("reset")
+      .message<&Viterbi::dump>("dump")
+      .message<&Viterbi::perf_message>("perf")
+      .message<&Viterbi::print>("print")
+      .dsp();
+}
+
+}  // namespace gait::pd

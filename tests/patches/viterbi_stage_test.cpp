@@ -1,0 +1,151 @@
+// [gait.viterbi~] on stage: frames that jitter and get lost, streams that stop and come back,
+// people who stand.
+#include <gtest/gtest.h>
+
+#include <algorithm>
+#include <cmath>
+#include <random>
+
+#include "patches/viterbi_patch.h"
+
+namespace gait::testing {
+namespace {
+
+TEST(ViterbiObject, says_where_the_walk_was_when_its_stream_stops_and_takes_it_up_again) {
+  GAIT_NEEDS_PD();
+  ChainPatch patch;
+  const Eigen::MatrixXf inputs = inputs_of(unseen_walk("proud"));
+  std::vector<std::pair<double, std::string>> messages;
+  for (int frame = 0; frame < 80; ++frame)
+    messages.push_back({frame == 0 ? 0.1 : 1 / 30.0, message_of("in", inputs.col(frame))});
+  for (int frame = 80; frame < 100; ++frame)
+    messages.push_back({frame == 80 ? 1 : 1 / 30.0, message_of("in", inputs.col(frame))});
+  patch.play(messages);
+  patch.dsp();
+  patch.quit_after(6000);
+  const PdRun run = run_pd(patch);
+  ASSERT_EQ(run.exit_code, 0) << run.log;
+  EXPECT_EQ(run.errors(), std::vector<std::string>()) << run.log;
+  std::vector<std::string> told;
+  for (const std::string& line : run.recorded("gauss"))
+    if (!line.starts_with("gauss"))
+      told.push_back(line.substr(0, line.starts_with("place") ? 5 : 9));
+  const std::vector<std::string> expected{"stream 1", "walking 1", "place", "stream 0",
+                                          "stream 1", "walking 1", "place", "stream 0"};
+  EXPECT_EQ(told, expected);
+  const auto places = run.numbers("cord", "place");
+  ASSERT_EQ(places.size(), 2u);
+  ASSERT_EQ(places[0].size(), 2 + demo()->styles.size());
+  // It has gone on for the quarter second that was waited.
+  const Computed core = computed(inputs.leftCols(80), 1);
+  const Decision& last = core.decisions.back();
+  EXPECT_NEAR(places[0][1], last.cadence, 0.15);
+  EXPECT_NEAR(std::remainder(places[0][0] - (last.phase + 0.25 * last.cadence / 2), 1), 0, 0.06);
+  for (std::size_t style = 0; style < demo()->styles.size(); ++style)
+    EXPECT_NEAR(places[0][2 + style], core.styles.back()[style], 0.02);
+}
+
+TEST(ViterbiObject, feet_touch_on_time_though_frames_jitter_and_some_are_lost) {
+  GAIT_NEEDS_PD();
+  std::mt19937 random(4);
+  std::uniform_real_distribution<double> uniform(-1, 1);
+  std::vector<double> late;
+  int contacts = 0, on_time = 0;
+  for (const char* style : {"tiptoeing", "in-a-hurry", "drunk", "proud"}) {
+    const CorpusWalk walk = unseen_walk(style, 8);
+    const Eigen::MatrixXf inputs = inputs_of(walk);
+    ChainPatch patch;
+    // The ramp, read every block, and when each foot touches.
+    const int clock = patch.object("metro 1.3333333"), read = patch.object("snapshot~"),
+              begin = patch.object("loadbang"), contact = patch.object("route contact"),
+              foot = patch.object("route right left");
+    patch.connect(begin, 0, clock);
+    patch.connect(clock, 0, read);
+    patch.connect(patch.viterbi, 0, read);
+    patch.record(read, 0, "ramp");
+    patch.connect(patch.viterbi, 5, contact);
+    patch.connect(contact, 0, foot);
+    for (int side = 0; side < 2; ++side) {
+      const int timer = patch.object("timer");
+      patch.connect(begin, 0, timer);
+      patch.connect(foot, side, timer, 1);
+      patch.record(timer, 0, side == 0 ? "right" : "left");
+    }
+    std::vector<std::pair<double, std::string>> messages{{0, "rate 30"}};
+    double before = 0;
+    for (int frame = 0; frame < inputs.cols(); ++frame) {
+      if (frame > 0 && uniform(random) > 0.9) continue;
+      const double time = std::max(before, 0.1 + frame / 30.0 + 0.02 * uniform(random));
+      messages.push_back({time - before, message_of("in", inputs.col(frame))});
+      before = time;
+    }
+    patch.play(messages);
+    patch.dsp();
+    patch.quit_after(1000 * before + 100);
+    const PdRun run = run_pd(patch);
+    ASSERT_EQ(run.exit_code, 0) << run.log;
+    EXPECT_EQ(run.errors(), std::vector<std::string>()) << run.log;
+
+    const auto ramp = run.numbers("ramp", "float");
+    ASSERT_GT(ramp.size(), 1000u);
+    const double settled = 0.1 + walk.contacts[2].frame / 30.0;
+    double steepest = 0, sum = 0;
+    int steps = 0;
+    for (auto i = static_cast<std::size_t>(settled * 750); i + 1 < ramp.size(); ++i, ++steps) {
+      double step = ramp[i + 1][0] - ramp[i][0];
+      if (step < -0.5) step += 1;
+      EXPECT_GE(step, 0) << style;
+      steepest = std::max(steepest, step), sum += step;
+    }
+    EXPECT_LT(steepest, 3 * sum / steps) << style;
+    for (const Contact& made : walk.contacts) {
+      const double time = 0.1 + made.frame / 30.0;
+      if (time < settled || time + 0.1 > before) continue;
+      double nearest = 1e9;
+      for (const auto& heard : run.numbers(made.foot == Foot::right ? "right" : "left", "float")) {
+        const double off = heard[0] / 1000 - time;
+        if (std::abs(off) < std::abs(nearest)) nearest = off;
+      }
+      ++contacts;
+      on_time += std::abs(nearest) <= 2 / 30.0;
+      late.push_back(nearest * 30);
+    }
+  }
+  EXPECT_GT(contacts, 30);
+  EXPECT_GE(on_time, 0.95 * contacts) << "of " << contacts;
+  std::nth_element(late.begin(), late.begin() + late.size() / 2, late.end());
+  EXPECT_LE(std::abs(late[late.size() / 2]), 1) << "frames";
+}
+
+TEST(ViterbiObject, who_stands_makes_no_steps_and_no_phase) {
+  GAIT_NEEDS_PD();
+  ChainPatch patch;
+  const Eigen::MatrixXf inputs = inputs_of(unseen_walk("cool"));
+  std::vector<std::pair<double, std::string>> messages;
+  for (int frame = 0; frame < 200; ++frame)
+    messages.push_back({1 / 30.0, message_of("in", inputs.col(std::min(frame, 80)))});
+  patch.play(messages);
+  patch.dsp();
+  patch.quit_after(7000);
+  const PdRun run = run_pd(patch);
+  ASSERT_EQ(run.exit_code, 0) << run.log;
+  const auto info = run.recorded("info");
+  const auto stood = std::ranges::find(info, "walking 0");
+  ASSERT_NE(stood, info.end());
+  // Counted in frames from the last that moved.
+  const auto frames =
+      std::count_if(info.begin(), stood, [](const auto& l) { return l.starts_with("phase "); });
+  EXPECT_LE(frames, 81 + 30);
+  int later = 0;
+  std::string phase;
+  for (auto line = stood; line != info.end(); ++line) {
+    EXPECT_FALSE(line->starts_with("step ") || line->starts_with("contact ")) << *line;
+    if (!line->starts_with("phase ") || ++later < 15) continue;
+    if (!phase.empty()) EXPECT_EQ(*line, phase);
+    phase = *line;
+  }
+  EXPECT_GT(later, 50);
+}
+
+}  // namespace
+}  // namespace gait::testing
