@@ -110,6 +110,7 @@ class ModelBox final : public ModelUser {
   void dump(const Arguments&) {
     if (!file_.empty()) info_.add(file_).send("read");
   }
+  void unknown(const Arguments& arguments) { arguments.fail("no such message"); }
   void perf_message(const Arguments&) { perf().report(info_); }
   void print(const Arguments&) {
     if (!model()) {
@@ -225,7 +226,8 @@ void setup_model() {
       .message<&ModelBox::reset>("reset")
       .message<&ModelBox::dump>("dump")
       .message<&ModelBox::perf_message>("perf")
-      .message<&ModelBox::print>("print");
+      .message<&ModelBox::print>("print")
+      .anything<&ModelBox::unknown>();
 }
 
 }  // namespace gait::pd

@@ -54,6 +54,7 @@ class Phase {
          static_cast<double>(clock().phase()), static_cast<double>(clock().cadence()),
          clock().walking() ? "walking" : "standing");
   }
+  void unknown(const Arguments& arguments) { arguments.fail("no such message"); }
   void dsp(t_signal** signals) { signals_.dsp(signals); }
 
  private:
@@ -86,6 +87,7 @@ void setup_phase() {
       .message<&Phase::dump>("dump")
       .message<&Phase::perf_message>("perf")
       .message<&Phase::print>("print")
+      .anything<&Phase::unknown>()
       .dsp();
 }
 
