@@ -5,18 +5,9 @@
 #include <numbers>
 
 #include "gait/model/body_pose.h"
+#include "gait/play/falling_in_step.h"
 
 namespace gait {
-
-namespace {
-
-constexpr double hand_over_seconds = 0.5;  // about one step
-constexpr double patience_seconds = 2;
-constexpr float in_step = 0.03f;  // cycles
-constexpr float hurry = 4;        // per second: how fast a difference in phase is made good
-constexpr float slowest_pace = 0.5f, fastest_pace = 1.25f;
-
-}  // namespace
 
 Continuation::Continuation(std::shared_ptr<const Model> model, const PlayerSettings& settings,
                            const StepWalkerSettings& walking)
@@ -26,7 +17,8 @@ Continuation::Continuation(std::shared_ptr<const Model> model, const PlayerSetti
       hand_over_(3 * model->body->skeleton.size() + 1 + model->output.values, model->frame_rate,
                  hand_over_seconds),
       settling_(std::max(2, model->input.lags.empty() ? 0 : model->input.lags.back())),
-      patience_(settling_ + static_cast<int>(std::lround(patience_seconds * model->frame_rate))),
+      patience_(settling_ +
+                static_cast<int>(std::lround(step_patience_seconds * model->frame_rate))),
       period_(1 / model->frame_rate),
       styles_(model->styles.size(), 0.0f) {
   for (const auto& reference : model->body->references)
@@ -82,11 +74,7 @@ bool Continuation::next() noexcept {
 bool Continuation::fall_in_step() noexcept {
   if (alone_as_ != OnLost::walk || returned_ > patience_) return true;
   const Decision& theirs = reconstructor_.frame().decision;
-  const float behind = walker_.behind(theirs.phase, theirs.cadence);
-  const float now = std::remainder(theirs.phase - walker_.phase(), 1.0f);
-  if (std::abs(behind) < in_step && std::abs(now) < in_step) return true;
-  walker_.set_pace(std::clamp(1 + hurry * behind, slowest_pace, fastest_pace));
-  return false;
+  return gait::fall_in_step(walker_, theirs.phase, theirs.cadence);
 }
 
 bool Continuation::go_on() noexcept {

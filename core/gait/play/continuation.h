@@ -16,16 +16,11 @@
 #include <vector>
 
 #include "gait/play/hand_over.h"
+#include "gait/play/on_lost.h"
 #include "gait/play/reconstructor.h"
 #include "gait/play/step_walker.h"
 
 namespace gait {
-
-enum class OnLost {
-  walk,  // on, alone
-  hold,  // comes to rest in the pose it was in
-  stop   // no more frames
-};
 
 class Continuation {
  public:
