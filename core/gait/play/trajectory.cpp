@@ -1,6 +1,7 @@
 #include "gait/play/trajectory.h"
 
 #include <algorithm>
+#include <utility>
 
 namespace gait {
 
@@ -27,6 +28,20 @@ void Trajectory::push(const OutputGaussian& gaussian) noexcept {
         gaussian.variance.segment(part * values_, values_).array().inverse();
     target_[part].col(newest_) = gaussian.mean.segment(part * values_, values_).array();
   }
+}
+
+void Trajectory::resize(int past, int future) {
+  Trajectory other(values_, past, current_, future);
+  other.filled_ = std::min(filled_, other.length_);
+  other.fresh_ = fresh_;
+  other.newest_ = std::max(0, other.filled_ - 1);
+  for (int i = 0; i < other.filled_; ++i)
+    for (int part = 0; part < 3; ++part) {
+      const int from = column(filled_ - other.filled_ + i);
+      other.weight_[part].col(i) = weight_[part].col(from);
+      other.target_[part].col(i) = target_[part].col(from);
+    }
+  *this = std::move(other);
 }
 
 bool Trajectory::ready() const noexcept {

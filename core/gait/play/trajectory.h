@@ -34,7 +34,12 @@ class Trajectory {
   Eigen::Ref<const Eigen::MatrixXf> flush(int count) noexcept;
 
   int delay() const noexcept { return future_ + current_ - 1; }  // frames
+  int filled() const noexcept { return filled_; }                // frames in the queue
+  int past() const noexcept { return past_; }
+  int future() const noexcept { return future_; }
   void reset() noexcept { filled_ = fresh_ = 0; }
+  // A longer or shorter queue, in which the newest frames stay. This one allocates.
+  void resize(int past, int future);
 
  private:
   void solve() noexcept;
