@@ -1,0 +1,42 @@
+// Frames of a stream that another one belongs to, which comes later: which of them to show with it.
+//
+// Streams are told apart by how often they come: each frame that is shown is marked, and what had
+// come by `delay` marks ago belongs to the frame shown now, whatever rate its sender has. Until so
+// many marks are there both are taken to come equally often. Nothing allocates after construction.
+#pragma once
+
+#include <Eigen/Core>
+#include <array>
+#include <span>
+
+namespace gait {
+
+class DelayedFrames {
+ public:
+  static constexpr int longest_delay = 63;  // marks
+
+  // `values`: per frame; it starts with `first`.
+  explicit DelayedFrames(const Eigen::VectorXf& first);
+
+  // Stores a frame; a span of another size is ignored.
+  void store(std::span<const float> values) noexcept;
+  void mark() noexcept;
+  // The frame that belongs to the last mark when that one is late by `delay` marks.
+  std::span<const float> at(int delay) const noexcept;
+  std::span<const float> newest() const noexcept { return frame(stored_); }
+  bool any() const noexcept { return stored_ > 0; }  // whether one was stored
+  void reset() noexcept;                             // to `first`
+
+ private:
+  static constexpr int capacity = 4 * (longest_delay + 1);  // senders up to four times as fast
+
+  std::span<const float> frame(int number) const noexcept;
+
+  Eigen::MatrixXf frames_;  // ring of columns; number n is column n % capacity
+  Eigen::VectorXf first_;
+  int stored_ = 0;  // frames so far, the number of the newest; 0 is `first`
+  std::array<int, longest_delay + 1> marks_{};  // ring: what was the newest then
+  int marked_ = 0;
+};
+
+}  // namespace gait
