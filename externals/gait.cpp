@@ -16,6 +16,8 @@ void setup_all() {
   setup_phase();
   setup_train();
   setup_viterbi();
+  setup_synth();
+  setup_skeleton();
 }
 
 }  // namespace

@@ -10,5 +10,7 @@ void setup_pca();
 void setup_phase();
 void setup_train();
 void setup_viterbi();
+void setup_synth();
+void setup_skeleton();
 
 }  // namespace gait::pd

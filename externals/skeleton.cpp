@@ -1,0 +1,173 @@
+// [gait.skeleton NAME]: the body in the world: parts put together, walking by its feet.
+#include "gait/play/body_stage.h"
+#include "joint_argument.h"
+#include "objects.h"
+#include "pd/models.h"
+#include "stage_setting.h"
+
+namespace gait::pd {
+
+namespace {
+
+class Skeleton final : public ModelUser {
+ public:
+  Skeleton(Box& box, const Arguments& arguments)
+      : ModelUser(box, arguments.size() > 0 ? arguments.text(0) : ""),
+        cold_(box, this, &take_cold<Skeleton>),
+        figure_(box),
+        body_(box),
+        info_(box) {
+    arguments.expect_count(0, 1);
+    join();
+  }
+
+  void out(const Arguments& arguments) {
+    if (!ready_for_frame()) return;
+    if (!take_frame(arguments, outputs_, [this] { return stage_->show_outputs(outputs_); })) return;
+    show();
+  }
+  void pose(const Arguments& arguments) {
+    if (!ready_for_frame()) return;
+    if (!take_frame(arguments, pose_, [this] { return stage_->show_pose(pose_); })) return;
+    show();
+  }
+  // What was measured, to be shown with the outputs that are made from it.
+  void cold(const Arguments& arguments) {
+    const auto selector = arguments.selector();
+    if (selector == "in") {
+      if (ready_for_frame())
+        take_frame(arguments, inputs_, [this] { return stage_->store_inputs(inputs_); });
+    } else if (selector == "pose") {
+      if (ready_for_frame())
+        take_frame(arguments, pose_, [this] { return stage_->store_pose(pose_); });
+    } else if (selector == "root") {
+      store_root(arguments);
+    } else {
+      arguments.fail("no such message at the right inlet");
+    }
+  }
+
+  // A setting, or where the root was measured.
+  void root(const Arguments& arguments) {
+    if (arguments.is_symbol(0))
+      setting(arguments);
+    else
+      store_root(arguments);
+  }
+  void setting(const Arguments& arguments) {
+    if (!settings_.take(arguments, stage_.get())) arguments.fail("no such message");
+  }
+  // [gait.synth] passes it on; who walks alone sends whole poses.
+  void stream(const Arguments& arguments) {
+    arguments.expect_count(1);
+    arguments.flag(0);
+  }
+
+  void resend(const Arguments&) { send_bones(); }
+  void reset(const Arguments&) {
+    if (stage_) stage_->reset();
+  }
+  void dump(const Arguments&) { settings_.dump(info_); }
+  void perf_message(const Arguments&) { perf().report(info_); }
+  void print(const Arguments&) {
+    if (!stage_) {
+      post("%s: waiting for %s", box().name(), model_name().c_str());
+      return;
+    }
+    const auto& hips = stage_->root().hips;
+    post("%s: %s, %d joints, hips at %.2f %.2f %.2f m", box().name(), model()->model->name.c_str(),
+         static_cast<int>(pose_.size() / 3), static_cast<double>(hips.x()),
+         static_cast<double>(hips.y()), static_cast<double>(hips.z()));
+  }
+
+ private:
+  void take(const SharedModel& shared, const SharedModel&) override {
+    auto fresh = std::make_unique<BodyStage>(shared->model);
+    if (stage_) fresh->take_over(*stage_);
+    stage_ = std::move(fresh);
+    const Model& model = *shared->model;
+    inputs_.assign(static_cast<std::size_t>(model.input.values), 0);
+    outputs_.assign(static_cast<std::size_t>(model.output.values), 0);
+    pose_.assign(stage_->pose().size(), 0);
+    figure_.reserve(static_cast<int>(stage_->positions().size()));
+    body_.reserve(static_cast<int>(pose_.size()));
+    settings_.apply(*stage_, [this](const char* what) { say_error(this->box(), what); });
+    bones_due_ = true;
+  }
+  void say_ready() override {
+    info_.add_text(model_name()).send("ready");
+    send_bones();
+    // Who is connected only later, as in a patch that is still being read, needs them too.
+    bones_due_ = true;
+  }
+
+  template <class Take>
+  bool take_frame(const Arguments& arguments, std::vector<float>& values, Take taken) {
+    if (arguments.read(values) && taken()) return true;
+    slow_error().say([&] {
+      return std::string(box().name()) + ": " + std::string(arguments.selector()) + ": expected " +
+             std::to_string(values.size()) + " finite numbers, got " +
+             std::to_string(arguments.size());
+    });
+    return false;
+  }
+
+  void store_root(const Arguments& arguments) {
+    if (!ready_for_frame()) return;
+    take_frame(arguments, root_, [this] {
+      return stage_->store_root({{root_[0], root_[1], root_[2]}, root_[3]});
+    });
+  }
+
+  void send_bones() {
+    if (!stage_) return;
+    for (const auto& [parent, child] : stage_->bones()) figure_.add(parent).add(child);
+    figure_.send("bones");
+    bones_due_ = false;
+  }
+
+  void show() {
+    for (const auto& [joint, said] : settings_.reported()) {
+      const auto at = static_cast<std::size_t>(3 * joint);
+      info_.add_text(said).add(stage_->speed(joint)).send("speed");
+      info_.add_text(said).add(stage_->positions().subspan(at, 3)).send("joint");
+    }
+    info_.add(stage_->energy()).send("energy");
+    for (const Foot foot : {Foot::right, Foot::left}) {
+      if (!stage_->touched(foot)) continue;
+      if (const auto stride = stage_->stride(foot)) info_.add(*stride).send("stride");
+      info_.add(foot == Foot::right ? "right" : "left").send("contact");
+    }
+    const RootPlace& root = stage_->root();
+    body_.add(root.hips.x()).add(root.hips.y()).add(root.hips.z()).add(root.heading).send("root");
+    body_.add(stage_->pose()).send("pose");
+    if (bones_due_) send_bones();
+    figure_.add(stage_->positions()).send("pos");
+  }
+
+  ColdInlet cold_;
+  Outlet figure_, body_, info_;
+  std::unique_ptr<BodyStage> stage_;
+  std::vector<float> inputs_, outputs_, pose_, root_ = std::vector<float>(4);
+  bool bones_due_ = false;
+  StageSetting settings_;
+};
+
+}  // namespace
+
+void setup_skeleton() {
+  if (!may_register("gait.skeleton")) return;
+  Class<Skeleton>("gait.skeleton")
+      .message<&Skeleton::out>("out")
+      .message<&Skeleton::pose>("pose")
+      .message<&Skeleton::root>("root")
+      .message<&Skeleton::stream>("stream")
+      .message<&Skeleton::resend>("resend")
+      .message<&Skeleton::reset>("reset")
+      .message<&Skeleton::dump>("dump")
+      .message<&Skeleton::perf_message>("perf")
+      .message<&Skeleton::print>("print")
+      .anything<&Skeleton::setting>();
+}
+
+}  // namespace gait::pd

@@ -1,0 +1,54 @@
+// What [gait.skeleton] was told, kept so that it can be said before the model is there and lives on
+// when it is replaced.
+//
+//   root feet|keep|still
+//   heading W               rad/s: the path turns
+//   place x y z             where it begins
+//   smooth HZ               1-euro filter, 0: off
+//   leg H                   thigh and shank in metres, 0: the model's
+//   delay N                 frames by which `out` is late
+//   walking 0|1
+//   report J ...            joints that the info outlet speaks of
+#pragma once
+
+#include <array>
+#include <functional>
+#include <string>
+#include <utility>
+#include <vector>
+
+#include "gait/play/body_stage.h"
+#include "pd/outlet.h"
+
+namespace gait::pd {
+
+class StageSetting {
+ public:
+  // Takes one of the messages above and says so; false for any other selector. `stage` may be null
+  // (no model yet). Throws Error, with nothing changed, for what cannot be set.
+  bool take(const Arguments& arguments, BodyStage* stage);
+  // Sets everything that was said; joints that the model lacks are told to `failed` and forgotten.
+  void apply(BodyStage& stage, const std::function<void(const char*)>& failed);
+  // The messages that restore it.
+  void dump(Outlet& info) const;
+
+  // Joints with the words they were asked for by.
+  const std::vector<std::pair<int, std::string>>& reported() const { return reported_; }
+
+ private:
+  using Reported = std::vector<std::pair<int, std::string>>;
+  bool take_number(const Arguments& arguments);
+  void take_report(const Arguments& arguments, const BodyStage* stage);
+  static Reported found(const Arguments& arguments, const BodyStage& stage);
+  void set(BodyStage& stage) const;
+
+  RootFrom root_ = RootFrom::feet;
+  float heading_ = 0, smooth_ = 0, leg_ = 0;
+  std::array<float, 3> place_{};
+  int delay_ = 0;
+  bool walking_ = true;
+  std::vector<t_atom> report_;
+  Reported reported_;
+};
+
+}  // namespace gait::pd
