@@ -3,6 +3,7 @@
 #include "joint_argument.h"
 #include "objects.h"
 #include "pd/models.h"
+#include "pd/worker.h"
 #include "stage_setting.h"
 
 namespace gait::pd {
@@ -81,10 +82,14 @@ class Skeleton final : public ModelUser {
   }
 
  private:
+  Prepare prepare() override {
+    return [](const SharedModel& shared) { return std::make_shared<BodyStage>(shared->model); };
+  }
   void take(const SharedModel& shared, const SharedModel&) override {
-    auto fresh = std::make_unique<BodyStage>(shared->model);
+    auto fresh = prepared<BodyStage>();
     if (stage_) fresh->take_over(*stage_);
-    stage_ = std::move(fresh);
+    std::swap(stage_, fresh);
+    if (fresh) Worker::get().free_later(std::move(fresh));
     const Model& model = *shared->model;
     inputs_.assign(static_cast<std::size_t>(model.input.values), 0);
     outputs_.assign(static_cast<std::size_t>(model.output.values), 0);
@@ -147,7 +152,7 @@ class Skeleton final : public ModelUser {
 
   ColdInlet cold_;
   Outlet figure_, body_, info_;
-  std::unique_ptr<BodyStage> stage_;
+  std::shared_ptr<BodyStage> stage_;
   std::vector<float> inputs_, outputs_, pose_, root_ = std::vector<float>(4);
   bool bones_due_ = false;
   StageSetting settings_;

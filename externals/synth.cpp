@@ -2,9 +2,11 @@
 #include <cmath>
 
 #include "gait/error.h"
+#include "label_setting.h"
 #include "objects.h"
 #include "pd/models.h"
 #include "pd/ticker.h"
+#include "pd/worker.h"
 #include "synth_setting.h"
 
 namespace gait::pd {
@@ -12,6 +14,8 @@ namespace gait::pd {
 namespace {
 
 constexpr double longest_advance = 60;  // seconds at once
+constexpr float longest_lag = 1000;     // frames
+constexpr double frames_in_gap = 3;     // after so many a frame may belong to another motion
 
 class Synth final : public ModelUser {
  public:
@@ -36,13 +40,17 @@ class Synth final : public ModelUser {
     const auto size = static_cast<std::size_t>(3 * values);
     const auto means = std::span<const float>(gauss_).subspan(2, size);
     const auto variances = std::span<const float>(gauss_).subspan(2 + size, size);
-    if (!synthesiser_->fits(means, variances) || !(gauss_[0] >= 0 && gauss_[0] <= 1000)) {
+    const bool lag_fits = gauss_[0] >= 0 && gauss_[0] <= longest_lag;
+    if (!lag_fits || !synthesiser_->fits(means, variances)) {
       slow_error().say([&] {
         return std::string(box().name()) +
-               ": gauss: expected finite means and positive variances of what moves";
+               ": gauss: expected a lag, finite means and positive variances of what moves";
       });
       return;
     }
+    const double period = 1000 / model()->model->frame_rate;
+    const bool after_gap = flows_ && clock_gettimesince(fed_at_) > frames_in_gap * period;
+    fed_at_ = clock_getlogicaltime();
     flows_ = fed_ = true;
     lost_ = false;
     run();
@@ -50,7 +58,7 @@ class Synth final : public ModelUser {
     bool made = false;
     {
       const Perf::Frame frame(perf());
-      made = synthesiser_->push(means, variances);
+      made = synthesiser_->push(means, variances, after_gap);
     }
     if (made) show();
   }
@@ -113,7 +121,7 @@ class Synth final : public ModelUser {
   }
   void reset(const Arguments&) {
     if (synthesiser_) synthesiser_->reset(), synthesiser_->set_walking(walking_);
-    waiting_.clear();
+    labels_.clear();
     fed_ = flows_ = lost_ = whole_ = false;
     due_ = 0;
     run();
@@ -141,59 +149,39 @@ class Synth final : public ModelUser {
   }
 
  private:
+  Prepare prepare() override {
+    SynthesiserSettings settings;
+    if (synthesiser_) settings = {synthesiser_->past(), synthesiser_->future()};
+    return [settings](const SharedModel& shared) {
+      if (!shared->steps)
+        throw Error("model " + shared->model->name +
+                    " was learnt without trajectory statistics, so [gait.synth] cannot walk in "
+                    "it; train it again");
+      return std::make_shared<Synthesiser>(shared->model, settings, shared->steps);
+    };
+  }
   void take(const SharedModel& shared, const SharedModel&) override {
     const Model& model = *shared->model;
-    if (!shared->steps)
-      throw Error("model " + model.name +
-                  " was learnt without trajectory statistics, so [gait.synth] cannot walk in it; "
-                  "train it again");
-    auto fresh = std::make_unique<Synthesiser>(shared->model, SynthesiserSettings{}, shared->steps);
+    auto fresh = prepared<Synthesiser>();
     const bool goes_on = synthesiser_ && fresh->take_over(*synthesiser_);
-    synthesiser_ = std::move(fresh);
+    std::swap(synthesiser_, fresh);
+    if (fresh) Worker::get().free_later(std::move(fresh));
     const auto size = static_cast<std::size_t>(model.output.values);
     gauss_.assign(2 + 6 * size, 0);
     place_.assign(2 + model.styles.size(), 0);
     out_.reserve(static_cast<int>(std::max(size, synthesiser_->pose().size())));
     clock_.set_period(1000 / model.frame_rate);
-    settings_.apply(*synthesiser_, goes_on,
-                    [this](const char* what) { say_error(this->box(), what); });
+    const auto failed = [this](const char* what) { say_error(this->box(), what); };
+    settings_.apply(*synthesiser_, goes_on, failed);
+    labels_.apply(*synthesiser_, failed);
     synthesiser_->set_walking(walking_);
-    queue_waiting(model);
     if (!goes_on) fed_ = lost_ = whole_ = false, delay_sent_.reset();
     run();
   }
   void say_ready() override { info_.add_text(model_name()).send("ready"); }
 
-  void queue_waiting(const Model& model) {
-    for (const std::string& label : waiting_)
-      if (const int found = label_named(model, label); found >= 0)
-        synthesiser_->walker().queue(found);
-      else
-        say_error(
-            box(),
-            (std::string(box().name()) + ": no label '" + label + "' in " + model.name).c_str());
-    waiting_.clear();
-  }
-  static int label_named(const Model& model, const std::string& name) {
-    for (std::size_t i = 0; i < model.labels.size(); ++i)
-      if (model.labels[i].name == name) return static_cast<int>(i);
-    return -1;
-  }
-  void queue(const Arguments& arguments, const std::string& name) {
-    if (!synthesiser_) {
-      if (waiting_.size() >= LabelQueue::capacity) arguments.fail("the queue is full");
-      waiting_.push_back(name);
-      return;
-    }
-    const Model& model = *this->model()->model;
-    const int label = label_named(model, name);
-    if (label < 0) {
-      std::string known;
-      for (const Label& each : model.labels) known += (known.empty() ? "" : ", ") + each.name;
-      arguments.fail("no such message, nor a label of " + model.name + ", which has " + known);
-    }
-    if (!synthesiser_->walker().queue(label))
-      arguments.fail("the queue is full, or this label cannot follow");
+  void queue(const Arguments& arguments, const std::string& label) {
+    labels_.queue(arguments, label, synthesiser_.get());
     say_queue();
   }
   void say_queue() {
@@ -255,7 +243,7 @@ class Synth final : public ModelUser {
   }
 
   Outlet out_, info_;
-  std::unique_ptr<Synthesiser> synthesiser_;
+  std::shared_ptr<Synthesiser> synthesiser_;
   std::vector<float> gauss_, place_;
   int lag_ = 0;
   std::optional<int> delay_sent_;
@@ -264,6 +252,7 @@ class Synth final : public ModelUser {
 
   bool fed_ = false;      // frames came
   bool flows_ = false;    // and come: its own clock waits
+  double fed_at_ = 0;     // Pd's logical time
   bool lost_ = false;     // the stream stopped
   bool started_ = false;  // by the performer
   bool whole_ = false;    // the last frame was a whole body
@@ -272,7 +261,7 @@ class Synth final : public ModelUser {
   }};
 
   SynthSetting settings_;
-  std::vector<std::string> waiting_;  // labels queued before the model is there
+  LabelSetting labels_;
   bool walking_ = true;
 };
 

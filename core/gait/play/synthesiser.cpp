@@ -349,7 +349,7 @@ bool Synthesiser::take_over(const Synthesiser& other) {
       pose_.size() != other.pose_.size() || weights_.size() != other.weights_.size() ||
       !walker_.take_over(other.walker_))
     return false;
-  resize(other.past(), other.future());
+  if (past() != other.past() || future() != other.future()) resize(other.past(), other.future());
   if (model_->output.modelled == other.model_->output.modelled) {
     trajectory_ = other.trajectory_;
     statics_ = other.statics_;
