@@ -56,8 +56,9 @@ TEST(HelpPatches, work_wherever_the_folder_lies) {
   for (const fs::path& file : patches()) {
     const std::string text = contents(file);
     // The abstractions of examples live in patches that have declared it.
-    if (text.find(" 12;\n#X declare -path .. -lib gait;\n") == std::string::npos)
+    if (text.find(" 12;\n#X declare -path .. -lib gait;\n") == std::string::npos) {
       EXPECT_FALSE(file.filename().string().ends_with("-help.pd")) << file;
+    }
     for (const char* absolute : {"/home/", "/tmp/", "/usr/", "/Users/", "C:/"})
       EXPECT_EQ(text.find(absolute), std::string::npos) << file << ": " << absolute;
   }

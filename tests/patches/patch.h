@@ -64,8 +64,8 @@ int watched_allocations(const PdRun& run);
 // Where there is a pd to run, with the library built.
 bool has_pd();
 struct RunOptions {
-  std::string home;      // Pd sees only what is installed there; empty: the library just built
-  std::string state;     // folder for what objects keep between sessions; empty: the run's own
+  std::string home{};    // Pd sees only what is installed there; empty: the library just built
+  std::string state{};   // folder for what objects keep between sessions; empty: the run's own
   bool watched = false;  // what is allocated between [watch]'s 1 and 0 is counted
 };
 PdRun run_pd(const Patch& patch, const RunOptions& options = {});

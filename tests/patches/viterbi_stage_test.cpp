@@ -141,7 +141,9 @@ TEST(ViterbiObject, who_stands_makes_no_steps_and_no_phase) {
   for (auto line = stood; line != info.end(); ++line) {
     EXPECT_FALSE(line->starts_with("step ") || line->starts_with("contact ")) << *line;
     if (!line->starts_with("phase ") || ++later < 15) continue;
-    if (!phase.empty()) EXPECT_EQ(*line, phase);
+    if (!phase.empty()) {
+      EXPECT_EQ(*line, phase);
+    }
     phase = *line;
   }
   EXPECT_GT(later, 50);

@@ -107,9 +107,9 @@ TEST(LiveRecogniser, knows_styles_and_stays_with_them_in_walks_it_has_not_seen) 
 }
 
 TEST(LiveRecogniser, says_how_unlike_everything_taught_a_motion_is) {
-  EXPECT_EQ(unlikeness(0), 0);
-  EXPECT_NEAR(unlikeness(1.25f), 0.5, 1e-6);
-  EXPECT_EQ(unlikeness(1e30f), 1);
+  EXPECT_EQ(unlikeness(0, 1.25f), 0);
+  EXPECT_NEAR(unlikeness(1.25f, 1.25f), 0.5, 1e-6);
+  EXPECT_EQ(unlikeness(1e30f, 1.25f), 1);
   const auto model = corpus_walks().model;
   std::vector<float> taught;
   for (const Walk& walk : corpus_walks().walks) {

@@ -2,10 +2,9 @@
 
 namespace gait {
 
-float unlikeness(float distance) noexcept {
-  constexpr float half = 1.25f;
+float unlikeness(float distance, float usual) noexcept {
   if (!(distance > 0)) return 0;
-  const float ratio = half / distance;
+  const float ratio = usual / distance;
   return 1 / (1 + ratio * ratio * ratio);
 }
 

@@ -18,9 +18,9 @@
 namespace gait {
 
 // How unlike everything taught an observation is, 0 to 1, from its distance to the states decided
-// on (Decision::distance): 0.5 at 1.25. Of what was taught 98 % lie below 1.1 (the built-in corpus)
-// or 1.4 (captured walks), of styles that were not, half lie above 1.4.
-float unlikeness(float distance) noexcept;
+// on (Decision::distance): 0.5 at the `usual` one, below which 98 % of what was held out lay when
+// the model was learnt (PlayDefaults::usual_distance).
+float unlikeness(float distance, float usual) noexcept;
 
 class LiveRecogniser {
  public:
@@ -44,7 +44,10 @@ class LiveRecogniser {
   bool walking() const noexcept { return standing_.walking(); }
   float activity() const noexcept { return standing_.activity(); }
   int style() const noexcept { return choice_.style(); }  // -1: none leads yet
-  float unlike() const noexcept { return unlikeness(decision().distance); }
+  float unlike() const noexcept {
+    return unlikeness(decision().distance,
+                      static_cast<float>(recogniser_.model().play.usual_distance));
+  }
   // Seconds by which the phase estimate is late at the time of the last frame pushed, and by which
   // the decision is.
   double estimate_late() const noexcept { return recogniser_.late() + stream_.waited(); }
