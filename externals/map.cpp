@@ -22,8 +22,7 @@ class Map final : public ModelUser {
 
   void obs(const Arguments& arguments) {
     if (!ready_for_frame()) return;
-    const Perf::Frame frame(perf());
-    if (const char* wrong = read(arguments)) {
+    if (const char* wrong = map(arguments)) {
       slow_error().say([&] {
         return std::string(box().name()) + ": obs: " + wrong + ", got " +
                std::to_string(arguments.size()) + " numbers";
@@ -31,12 +30,11 @@ class Map final : public ModelUser {
       perf().drop();
       return;
     }
-    ObservationMap& map = playing_->map;
-    const ObservationMessage& message = playing_->message;
-    map.map(message.states(), message.missing(), message.observation());
-    info_.add(map.distance()).send("distance");
-    gauss_.add(message.lag()).add(model()->model->output.values);
-    gauss_.add(map.mean()).add(map.variance()).send("gauss");
+    const std::shared_ptr<Playing> playing = playing_;  // what is sent may come back and change it
+    const ObservationMap& mapped = playing->map;
+    info_.add(mapped.distance()).send("distance");
+    gauss_.add(playing->message.lag()).add(mapped.model().output.values);
+    gauss_.add(mapped.mean()).add(mapped.variance()).send("gauss");
   }
 
   void strength(const Arguments& arguments) {
@@ -138,12 +136,21 @@ class Map final : public ModelUser {
   }
   void say_ready() override { info_.add_text(model_name()).send("ready"); }
 
-  const char* read(const Arguments& arguments) noexcept {
+  // Null, or what was expected of the message.
+  const char* map(const Arguments& arguments) noexcept {
+    Perf::Frame frame(perf());
     const auto count = static_cast<std::size_t>(arguments.size());
-    if (count > playing_->row.size()) return "expected an observation of this model";
-    const std::span<float> row(playing_->row.data(), count);
-    if (!arguments.read(row)) return "expected numbers only";
-    return playing_->message.read(row);
+    const std::span<float> row(playing_->row.data(), std::min(count, playing_->row.size()));
+    const char* wrong = row.size() < count     ? "expected an observation of this model"
+                        : !arguments.read(row) ? "expected numbers only"
+                                               : playing_->message.read(row);
+    if (wrong) {
+      frame.forget();
+      return wrong;
+    }
+    const ObservationMessage& message = playing_->message;
+    playing_->map.map(message.states(), message.missing(), message.observation());
+    return nullptr;
   }
 
   // Keeps a setting and lets it count at once; before the model is there it is kept.

@@ -52,7 +52,6 @@ class Viterbi final : public ModelUser {
   }
   void bang(const Arguments&) {
     if (!ready_for_frame()) return;
-    const Perf::Frame frame(perf());
     arrived(live().stream().push_collected(time_of_frame()), "bang");
   }
 
@@ -156,7 +155,6 @@ class Viterbi final : public ModelUser {
 
   void whole_frame(const Arguments& arguments, bool body) {
     if (!ready_for_frame()) return;
-    const Perf::Frame frame(perf());
     const std::span<float> values(body ? playing_->pose : playing_->in);
     const char* const what = arguments.selector().data();
     if (values.empty() || !arguments.read(values)) {
@@ -169,7 +167,6 @@ class Viterbi final : public ModelUser {
   }
   void signal_frame(double time, std::span<const float> values) {
     if (!ready_for_frame()) return;
-    const Perf::Frame frame(perf());
     const bool body = values.size() != playing_->in.size();
     if (body && values.size() != playing_->pose.size()) {
       refuse("signals", static_cast<int>(values.size()), false);
@@ -211,7 +208,14 @@ class Viterbi final : public ModelUser {
     }
     // What is sent may come back and change what plays here.
     const std::shared_ptr<Playing> playing = playing_;
-    while (playing == playing_ && playing->live.next()) decided(*playing);
+    while (playing == playing_ && next(playing->live)) decided(*playing);
+  }
+  // What it costs is counted, not what others do with what is sent.
+  bool next(LiveRecogniser& live) {
+    Perf::Frame frame(perf());
+    const bool made = live.next();
+    if (!made) frame.forget();
+    return made;
   }
 
   // Right to left: info, then what goes to the map.

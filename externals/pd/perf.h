@@ -15,18 +15,22 @@ class Perf {
    public:
     explicit Frame(Perf& perf) : perf_(perf), begin_(std::chrono::steady_clock::now()) {}
     ~Frame() {
+      if (forgotten_) return;
       const std::chrono::duration<double, std::micro> took =
           std::chrono::steady_clock::now() - begin_;
       perf_.sum_ += took.count();
       perf_.most_ = std::max(perf_.most_, took.count());
       ++perf_.frames_;
     }
+    // It was none after all: nothing was due.
+    void forget() { forgotten_ = true; }
     Frame(const Frame&) = delete;
     Frame& operator=(const Frame&) = delete;
 
    private:
     Perf& perf_;
     std::chrono::steady_clock::time_point begin_;
+    bool forgotten_ = false;
   };
 
   void drop() { ++dropped_; }

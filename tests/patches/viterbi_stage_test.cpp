@@ -5,6 +5,7 @@
 #include <algorithm>
 #include <cmath>
 #include <random>
+#include <tuple>
 
 #include "patches/viterbi_patch.h"
 
@@ -147,6 +148,65 @@ TEST(ViterbiObject, who_stands_makes_no_steps_and_no_phase) {
     phase = *line;
   }
   EXPECT_GT(later, 50);
+}
+
+TEST(ViterbiObject, stops_when_its_stream_is_lost_if_it_is_told_so) {
+  GAIT_NEEDS_PD();
+  const Eigen::MatrixXf inputs = inputs_of(unseen_walk("proud"));
+  std::vector<std::pair<double, std::string>> frames{{0, ""}};
+  for (int frame = 0; frame < 90; ++frame)
+    frames.push_back({1 / 30.0, message_of("in", inputs.col(frame))});
+  const double lost = 3.25;
+  for (const auto& [told, from, to] : std::vector<std::tuple<std::string, double, double>>{
+           {"onlost walk", 1e9, 1e9},
+           {"onlost stop", lost, lost + 0.5},
+           {"onlost stop 1", lost + 1, lost + 1.5},
+           {"onlost walk 2", lost + 2, lost + 2.5}}) {
+    ChainPatch patch;
+    frames.front().second = told;
+    patch.play(frames);
+    const int clock = patch.object("metro 10"), read = patch.object("snapshot~"),
+              begin = patch.object("loadbang");
+    patch.connect(begin, 0, clock);
+    patch.connect(clock, 0, read);
+    patch.connect(patch.viterbi, 1, read);
+    patch.record(read, 0, "cadence");
+    patch.dsp();
+    patch.quit_after(8000);
+    const PdRun run = run_pd(patch);
+    ASSERT_EQ(run.exit_code, 0) << run.log;
+    EXPECT_EQ(run.errors(), std::vector<std::string>()) << run.log;
+    const auto cadence = run.numbers("cadence", "float");
+    ASSERT_GT(cadence.size(), 780u);
+    for (std::size_t i = 100; i < cadence.size(); ++i) {
+      const double time = static_cast<double>(i) / 100;
+      EXPECT_TRUE(time >= from || cadence[i][0] > 0.5) << told << " " << time;
+      EXPECT_TRUE(time <= to || cadence[i][0] == 0) << told << " " << time;
+    }
+  }
+}
+
+TEST(ViterbiObject, tells_of_contacts_without_sound_too) {
+  GAIT_NEEDS_PD();
+  const CorpusWalk walk = unseen_walk("proud");
+  const Eigen::MatrixXf inputs = inputs_of(walk);
+  std::vector<std::pair<double, std::string>> frames;
+  for (int frame = 0; frame < inputs.cols(); ++frame)
+    frames.push_back({1 / 30.0, message_of("in", inputs.col(frame))});
+  ChainPatch patch;
+  patch.play(frames);
+  patch.quit_after(1000 * (static_cast<double>(inputs.cols()) / 30 + 0.1));
+  const PdRun run = run_pd(patch);
+  ASSERT_EQ(run.exit_code, 0) << run.log;
+  int told = 0;
+  std::string before;
+  for (const std::string& line : run.recorded("info")) {
+    if (!line.starts_with("contact ")) continue;
+    EXPECT_NE(line, before) << "right and left in turn";
+    before = line;
+    ++told;
+  }
+  EXPECT_NEAR(told, static_cast<double>(walk.contacts.size()), 2);
 }
 
 }  // namespace

@@ -3,6 +3,8 @@
 
 #include <algorithm>
 #include <cmath>
+#include <fstream>
+#include <sstream>
 
 #include "patches/viterbi_patch.h"
 
@@ -199,6 +201,64 @@ TEST(ViterbiObject, with_the_map_allocates_nothing_while_frames_come) {
   const PdRun run = run_pd(patch, {.home = "", .watched = true});
   ASSERT_EQ(run.exit_code, 0) << run.log;
   EXPECT_EQ(watched_allocations(run), 0) << run.log;
+}
+
+TEST(ViterbiObject, many_in_a_clone_do_as_one_alone) {
+  GAIT_NEEDS_PD();
+  const Eigen::MatrixXf inputs = inputs_of(unseen_walk("heavy")).leftCols(60);
+  std::ofstream(::testing::TempDir() + "gait_chain.pd")
+      << "#N canvas 0 0 400 300 12;\n#X obj 10 10 inlet;\n#X obj 10 40 gait.viterbi~ gait-demo;\n"
+         "#X obj 10 70 gait.map gait-demo;\n#X obj 10 100 outlet;\n#X connect 0 0 1 0;\n"
+         "#X connect 1 4 2 0;\n#X connect 2 0 3 0;\n";
+  ChainPatch patch;
+  const int clone = patch.object("clone " + ::testing::TempDir() + "gait_chain 3");
+  patch.record(clone, 0, "cloned");
+  std::vector<std::string> alone{"rate 30"}, numbered{"all rate 30"};
+  for (int frame = 0; frame < inputs.cols(); ++frame) {
+    alone.push_back(message_of("in", inputs.col(frame)));
+    for (const char* number : {"0 ", "2 "}) numbered.push_back(number + alone.back());
+  }
+  patch.at_start(alone, patch.viterbi);
+  patch.at_start(numbered, clone);
+  patch.quit_after(10);
+  const PdRun run = run_pd(patch);
+  ASSERT_EQ(run.exit_code, 0) << run.log;
+  EXPECT_EQ(run.errors(), std::vector<std::string>()) << run.log;
+  std::vector<std::string> expected, found[3];
+  for (const std::string& line : run.recorded("gauss"))
+    if (line.starts_with("gauss ")) expected.push_back(line);
+  for (const std::string& line : run.recorded("cloned")) {
+    // list NUMBER gauss ...
+    std::istringstream words(line);
+    std::string list;
+    int number = -1;
+    words >> list >> number >> std::ws;
+    std::string rest;
+    std::getline(words, rest);
+    ASSERT_TRUE(number >= 0 && number < 3) << line;
+    if (rest.starts_with("gauss ")) found[number].push_back(rest);
+  }
+  ASSERT_EQ(expected.size(), 60u);
+  EXPECT_EQ(found[0], expected);
+  EXPECT_TRUE(found[1].empty());
+  EXPECT_EQ(found[2], expected);
+}
+
+TEST(ViterbiObject, refuses_flags_that_it_or_this_pd_does_not_know) {
+  GAIT_NEEDS_PD();
+  Patch patch;
+  for (const char* flags :
+       {"gait-demo -signals", "gait-demo -signals 0", "gait-demo -loud", "gait-demo more"})
+    patch.object(std::string("gait.viterbi~ ") + flags);
+  patch.object("gait.map gait-demo more");
+  patch.quit_after(10);
+  const PdRun run = run_pd(patch);
+  ASSERT_EQ(run.exit_code, 0) << run.log;
+  for (const char* text : {"gait.viterbi~: expected a whole number from 1 to 512, got 0",
+                           "gait.viterbi~: expected -signals N or -mc, got '-loud'",
+                           "gait.viterbi~: expected -signals N or -mc, got 'more'",
+                           "gait.map: expected 0 to 1 argument"})
+    EXPECT_NE(run.log.find(text), std::string::npos) << text << "\n" << run.log;
 }
 
 }  // namespace

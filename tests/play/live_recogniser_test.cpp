@@ -106,6 +106,33 @@ TEST(LiveRecogniser, knows_styles_and_stays_with_them_in_walks_it_has_not_seen) 
   }
 }
 
+TEST(LiveRecogniser, decides_alike_whatever_the_senders_rate) {
+  const auto model = corpus_walks().model;
+  for (const std::string& style : model->styles) {
+    std::vector<Decision> slow;
+    for (const double rate : {30.0, 60.0, 120.0}) {
+      const CorpusWalk walk = make_walk(testing::plan_of(style, 77, 6), rate);
+      const auto poses = testing::input_poses(walk.clip, *model->body);
+      LiveRecogniser live(model);
+      std::vector<Decision> decisions;
+      for (std::size_t i = 0; i < poses.size(); ++i) {
+        for (std::size_t stream = 0; stream < poses[i].size(); ++stream)
+          live.stream().set_rotation(static_cast<int>(stream), poses[i][stream]);
+        live.stream().push_collected(static_cast<double>(i) / rate);
+        while (live.next()) decisions.push_back(live.decision());
+      }
+      if (rate == 30) slow = decisions;
+      const auto frames = std::min(slow.size(), decisions.size());
+      ASSERT_GT(frames, 100u);
+      std::size_t alike = 0;
+      for (std::size_t i = 0; i < frames; ++i)
+        alike += slow[i].label == decisions[i].label && slow[i].state == decisions[i].state;
+      EXPECT_GE(static_cast<double>(alike), 0.98 * static_cast<double>(frames))
+          << style << " at " << rate;
+    }
+  }
+}
+
 TEST(LiveRecogniser, says_how_unlike_everything_taught_a_motion_is) {
   EXPECT_EQ(unlikeness(0, 1.25f), 0);
   EXPECT_NEAR(unlikeness(1.25f, 1.25f), 0.5, 1e-6);
