@@ -16,6 +16,8 @@ namespace gait::pd {
 
 namespace {
 
+constexpr double falling_in = 2;  // seconds: for as long as `place` is told with a stream's frames
+
 bool is_flag(const Arguments& arguments, int i) {
   return arguments.is_symbol(i) && arguments.symbol(i).starts_with('-');
 }
@@ -200,9 +202,9 @@ class Viterbi final : public ModelUser {
       return;
     }
     lost_.after(1000 * listening_.timeout());
-    const bool returned = !streaming_;
-    if (returned) {
+    if (!streaming_) {
       streaming_ = true;
+      told_places_ = 0;
       stop_.cancel();
       tell(true, "stream");
     }
@@ -247,6 +249,11 @@ class Viterbi final : public ModelUser {
     }
     info_.add(decision.cadence).send("cadence");
     info_.add(decision.phase).send("phase");
+    // Who walks alone falls in step with a stream that begins, before going over to it.
+    if (told_places_ < falling_in * learnt.frame_rate) {
+      ++told_places_;
+      message_.add(decision.phase).add(decision.cadence).add(styles).send("place");
+    }
     message_.add(playing.observation.write(live.recogniser())).send("obs");
   }
 
@@ -285,6 +292,7 @@ class Viterbi final : public ModelUser {
       box(), [this](double time, std::span<const float> values) { signal_frame(time, values); }};
   const double begin_ = clock_getlogicaltime();
   bool streaming_ = false, walking_ = true;
+  int told_places_ = 0;         // since the stream began
   int step_ = -1, style_ = -1;  // as told last
   Ticker lost_{[this] { lost(); }};
   Ticker stop_{[this] { signals_.clock().set_walking(false); }};
