@@ -40,6 +40,9 @@ class CycleWalking {
   virtual double phase() const noexcept = 0;
   virtual float cadence() const noexcept = 0;
   virtual std::optional<Foot> contact() const noexcept = 0;
+  // Of the cycle being walked, in deviations, when the walker knows them; else empty, and they have
+  // to be found by projection.
+  virtual std::span<const float> scores() noexcept { return {}; }
   // Leg length of the walker, metres, when it is another than the body's; else 0.
   virtual float leg_length() const noexcept { return 0; }
 };

@@ -5,6 +5,13 @@
 
 #include "objects.h"
 
+// One module for each size of Pd's numbers: Pd refuses the other.
+#ifdef PD_FLOATSIZE
+static_assert(8 * sizeof(t_float) == PD_FLOATSIZE && sizeof(t_sample) == sizeof(t_float));
+#else
+static_assert(sizeof(t_float) == 4 && sizeof(t_sample) == 4);
+#endif
+
 namespace {
 
 void setup_all() {

@@ -154,11 +154,16 @@ class Pca final : public ModelUser {
   void move(double seconds) {
     const Perf::Frame frame(perf());
     walking_->advance(seconds);
-    playing_->own.add(playing_->values.of(walking_->pose()));
+    // A walker that knows its scores need not be projected.
+    const bool known = !walking_->scores().empty();
+    if (!known) playing_->own.add(playing_->values.of(walking_->pose()));
     const auto contact = walking_->contact();
     if (!contact) return;
     const char* const foot = *contact == Foot::right ? "right" : "left";
-    if (playing_->own.contact(*contact)) info_.add(playing_->own.scores()).send("scores");
+    if (known && *contact == Foot::right)
+      info_.add(walking_->scores()).send("scores");
+    else if (!known && playing_->own.contact(*contact))
+      info_.add(playing_->own.scores()).send("scores");
     info_.add(foot).send("step");
     info_.add(foot).send("contact");
   }

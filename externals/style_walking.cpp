@@ -72,6 +72,12 @@ class StyleWalking final : public CycleWalking {
   double phase() const noexcept override { return walking_->walker.phase(); }
   float cadence() const noexcept override { return walking_->walker.cadence(); }
   std::optional<Foot> contact() const noexcept override { return walking_->walker.contact(); }
+  std::span<const float> scores() noexcept override {
+    Walking& now = *walking_;
+    for (std::size_t i = 0; i < now.scores.size(); ++i)
+      now.scores[i] = now.walker.scores()[static_cast<Eigen::Index>(i)] * now.per_deviation[i];
+    return now.scores;
+  }
   SpaceOf space_of() const override {
     return [](const Model& model) -> const CycleSpace& { return model.style_space->space; };
   }
@@ -98,7 +104,13 @@ class StyleWalking final : public CycleWalking {
 
   struct Walking {
     Walking(const Settings& told, const SharedModel& in)
-        : settings(told), model(in), walker(in->model, told.seed, in->cycles) {}
+        : settings(told), model(in), walker(in->model, told.seed, in->cycles) {
+      const Eigen::VectorXd& variances = in->model->style_space->space.variances;
+      for (int i = 0; i < walker.components(); ++i)
+        per_deviation.push_back(variances[i] > 0 ? static_cast<float>(1 / std::sqrt(variances[i]))
+                                                 : 0.0f);
+      scores.resize(per_deviation.size());
+    }
     void apply() {
       walker.set_variation(settings.variation);
       walker.set_exaggeration(settings.exaggeration);
@@ -110,6 +122,7 @@ class StyleWalking final : public CycleWalking {
     Settings settings;
     SharedModel model;
     StyleWalker walker;
+    std::vector<float> scores, per_deviation;
   };
 
   bool set_number(const Arguments& arguments) {
@@ -163,18 +176,13 @@ class StyleWalking final : public CycleWalking {
     if (selector == "score")
       value = static_cast<float>(arguments.number(1, -most_score, most_score));
     else if (walking_)
-      value = scores_now(score);
+      value = scores()[static_cast<std::size_t>(score)];
     else
       arguments.fail("expected after the model " +
                      std::string("is there: nothing can be held yet"));
     settings_.pins[score] = value;
     if (walking_) walking_->walker.pin(score, value);
     return true;
-  }
-
-  float scores_now(int score) const {
-    const double deviation = std::sqrt(space_of()(*model_->model).variances[score]);
-    return deviation > 0 ? static_cast<float>(walking_->walker.scores()[score] / deviation) : 0.0f;
   }
 
   SharedModel model_;

@@ -49,5 +49,26 @@ TEST(Package, runs_from_an_empty_home) {
   EXPECT_NE(walked.log.find("SEEN: pose "), std::string::npos) << walked.log;
 }
 
+// What a module asks Pd for tells its numbers: Pd for 64-bit floats makes classes by another name.
+TEST(Package, has_a_module_for_each_size_of_float) {
+  if (run("command -v nm") != 0) GTEST_SKIP() << "there is no nm here (Debian: binutils)";
+  const auto asks = [](const std::string& module, const std::string& symbol) {
+    return run("nm -D --undefined-only '" + module + "' | grep -qw " + symbol) == 0;
+  };
+  std::string wide;
+  for (const auto& entry : fs::directory_iterator(GAIT_PD_FOLDER))
+    if (entry.path().string().ends_with("-64.so")) wide = entry.path().string();
+  ASSERT_FALSE(wide.empty());
+  const std::string narrow = GAIT_PD_FOLDER "/gait.pd_linux";
+  EXPECT_TRUE(asks(narrow, "class_new"));
+  EXPECT_FALSE(asks(narrow, "class_new64"));
+  EXPECT_TRUE(asks(wide, "class_new64"));
+  EXPECT_FALSE(asks(wide, "class_new"));
+  // And nothing is seen of them but their entries.
+  EXPECT_NE(run("nm -D --defined-only '" + narrow +
+                "' | grep -v ' gait_setup\\| setup_gait' | grep -q ' T '"),
+            0);
+}
+
 }  // namespace
 }  // namespace gait::testing

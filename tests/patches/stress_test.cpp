@@ -134,5 +134,57 @@ TEST(Stress, boxes_come_and_go_and_models_change_under_them) {
   EXPECT_EQ(run.log.find("Sanitizer"), std::string::npos) << run.log;
 }
 
+// Everybody plays while a model of other sizes is read in the background.
+TEST(Stress, a_model_is_swapped_under_players_without_a_long_tick) {
+  GAIT_NEEDS_PD();
+  Patch patch;
+  const int model =
+      patch.object(std::string("gait.model stage ") + GAIT_PD_FOLDER + "/gait-demo.gait -blocking");
+  const int second = patch.object("gait.model stage");
+  const int ticks = patch.object("ticks~"), begin = patch.object("loadbang");
+  const int start = patch.message("start");
+  patch.connect(begin, 0, start);
+  for (int walker = 0; walker < 12; ++walker)
+    patch.connect(start, 0,
+                  patch.object(walker % 2 ? "gait.pca stage speed" : "gait.pca stage style"));
+  for (int performer = 0; performer < 2; ++performer) {
+    const int clip = patch.object("gait.bvh stage gait-demo:sad"),
+              decoder = patch.object("gait.viterbi~ stage"), map = patch.object("gait.map stage"),
+              synth = patch.object("gait.synth stage"),
+              skeleton = patch.object("gait.skeleton stage");
+    patch.connect(start, 0, clip);
+    patch.connect(clip, 0, decoder);
+    patch.connect(decoder, 4, map);
+    patch.connect(map, 0, synth);
+    patch.connect(synth, 0, skeleton);
+    patch.connect(clip, 0, skeleton, 1);
+  }
+  patch.dsp();
+  patch.file("score.txt",
+             "1000 ticks 0;\n1000 ticks bang;\n0 ticks 0;\n0 model read " + other_model() + ";\n");
+  patch.connect(patch.object("receive ticks"), 0, ticks);
+  patch.connect(patch.object("receive model"), 0, model);
+  patch.at_start({"read score.txt, rewind, bang"}, patch.object("qlist"));
+  // Ready: a second later the longest tick is told, and the end.
+  const int wait = patch.object("del 1000"), both = patch.object("t b b"),
+            quit = patch.message("; pd quit 0");
+  patch.connect(second, 0, wait);
+  patch.connect(wait, 0, both);
+  patch.connect(both, 1, ticks);
+  patch.connect(both, 0, quit);
+  const PdRun run = run_pd(patch);
+  ASSERT_EQ(run.exit_code, 0) << run.log;
+  std::vector<double> most;
+  for (std::size_t at = run.log.find("ticks: "); at != std::string::npos;
+       at = run.log.find("ticks: ", at + 1)) {
+    double mean = 0, longest = 0;
+    ASSERT_EQ(std::sscanf(run.log.c_str() + at, "ticks: %lf %lf", &mean, &longest), 2);
+    std::printf("mean tick %.1f us, longest %.0f us\n", mean, longest);
+    most.push_back(longest);
+  }
+  ASSERT_EQ(most.size(), 2u) << run.log;
+  EXPECT_LT(most[1], 1000) << run.log;
+}
+
 }  // namespace
 }  // namespace gait::testing

@@ -3,8 +3,6 @@
 #include <algorithm>
 #include <cmath>
 
-#include "gait/motion/rotation.h"
-
 namespace gait {
 
 CycleProjector::CycleProjector(const CycleSpace& space, const Body& body)
@@ -56,16 +54,6 @@ bool CycleProjector::contact(Foot foot) noexcept {
   return complete;
 }
 
-// Between two frames, by SLERP.
-CycleProjector::Vector CycleProjector::value(double frame, std::size_t joint) const noexcept {
-  const int first = std::clamp(static_cast<int>(frame), 0, count_ - 1);
-  const int second = std::min(first + 1, count_ - 1);
-  const auto row = static_cast<Eigen::Index>(3 * joint);
-  const Vector a = taken_.block<3, 1>(row, first), b = taken_.block<3, 1>(row, second);
-  const auto share = static_cast<float>(frame - first);
-  return rotation_vector<float>(exponential_map<float>(a).slerp(share, exponential_map<float>(b)));
-}
-
 void CycleProjector::project() noexcept {
   const double length = count_ - 1, half = left_ > 0 ? left_ : length / 2;
   const int frames_half = frames_ / 2;
@@ -74,8 +62,12 @@ void CycleProjector::project() noexcept {
     const double at = k < frames_half
                           ? half * k / frames_half
                           : half + (length - half) * (k - frames_half) / (frames_ - frames_half);
-    for (std::size_t joint = 0; joint < joints_.size(); ++joint)
-      cycle_.segment<3>(k * size + static_cast<Eigen::Index>(3 * joint)) = value(at, joint);
+    // Linearly: frames are some hundredths of a second apart, where SLERP is the same to 1e-4 rad.
+    const int first = std::clamp(static_cast<int>(at), 0, count_ - 1);
+    const int second = std::min(first + 1, count_ - 1);
+    const auto share = static_cast<float>(at - first);
+    cycle_.segment(k * size, size) =
+        taken_.col(first) + share * (taken_.col(second) - taken_.col(first));
   }
   cycle_ -= mean_;
   scores_.noalias() = components_.transpose() * cycle_;

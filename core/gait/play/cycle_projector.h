@@ -38,9 +38,7 @@ class CycleProjector {
   void reset() noexcept;
 
  private:
-  using Vector = Eigen::Vector3f;
   void project() noexcept;
-  Vector value(double frame, std::size_t joint) const noexcept;
 
   int frames_ = 0, pose_values_ = 0;
   std::vector<int> joints_;  // of the body
