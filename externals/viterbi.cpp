@@ -243,9 +243,11 @@ class Viterbi final : public ModelUser {
     if (!styles.empty()) info_.add(styles).send("styles");
     const std::string& label = learnt.labels[decision.label].name;
     info_.add_text(label).add(decision.state).add(decision.log_likelihood).send("state");
-    if (walking_ && decision.label != step_) {
-      step_ = decision.label;
-      info_.add_text(label).send("step");
+    // What was never taught is no gesture; of a walk, any walk is one.
+    const int step = !learnt.body && live.strange() ? nothing_taught : decision.label;
+    if (walking_ && step != step_) {
+      step_ = step;
+      info_.add_text(step == nothing_taught ? "null" : label).send("step");
     }
     info_.add(decision.cadence).send("cadence");
     info_.add(decision.phase).send("phase");
@@ -292,7 +294,8 @@ class Viterbi final : public ModelUser {
       box(), [this](double time, std::span<const float> values) { signal_frame(time, values); }};
   const double begin_ = clock_getlogicaltime();
   bool streaming_ = false, walking_ = true;
-  int told_places_ = 0;         // since the stream began
+  int told_places_ = 0;  // since the stream began
+  static constexpr int nothing_taught = -2;
   int step_ = -1, style_ = -1;  // as told last
   Ticker lost_{[this] { lost(); }};
   Ticker stop_{[this] { signals_.clock().set_walking(false); }};

@@ -83,6 +83,35 @@ TEST(TrainObject, learns_gestures_and_says_how_well) {
   EXPECT_EQ(learnt.input.values, 2);
 }
 
+// Taught, then moved: three gestures, and one that was never shown.
+TEST(TrainObject, teaches_gestures_that_are_recognised_at_once_and_others_rejected) {
+  GAIT_NEEDS_PD();
+  Score score;
+  score.text = gestures() + "100 teach train;\n";
+  const auto move = [&](double size, double frequency, double phase) {
+    for (int frame = 0; frame < 90; ++frame) {
+      const double s = 2 * std::numbers::pi * frame / 40;
+      score.text += "20 seen in " + std::to_string(size * std::cos(s)) + " " +
+                    std::to_string(size * std::sin(frequency * s + phase)) + ";\n";
+    }
+  };
+  move(1, 1, 0);
+  move(3, 3, 0.5);
+  TrainPatch patch("moves -in 2 -blocking", score.text);
+  const int seen = patch.object("gait.viterbi~ moves"), steps = patch.object("route step");
+  patch.connect(patch.object("receive seen"), 0, seen);
+  patch.connect(seen, 5, steps);
+  patch.record(steps, 0, "steps");
+  patch.quit_after(60000);
+  const PdRun run = run_pd(patch);
+  ASSERT_EQ(run.exit_code, 0) << run.log;
+  EXPECT_EQ(run.errors(), std::vector<std::string>()) << run.log;
+  const auto told = run.recorded("steps");
+  ASSERT_FALSE(told.empty());
+  EXPECT_NE(std::ranges::find(told, "circle"), told.end());
+  EXPECT_EQ(told.back(), "null");
+}
+
 TEST(TrainObject, loses_no_take_when_pd_ends) {
   GAIT_NEEDS_PD();
   std::string state = ::testing::TempDir() + "gait_state_XXXXXX";

@@ -1,6 +1,12 @@
 #include "gait/play/live_recogniser.h"
 
+#include <cmath>
+
 namespace gait {
+
+namespace {
+constexpr double strange_seconds = 0.3;  // over which distances are averaged
+}
 
 float unlikeness(float distance, float usual) noexcept {
   if (!(distance > 0)) return 0;
@@ -14,7 +20,8 @@ LiveRecogniser::LiveRecogniser(std::shared_ptr<const Model> model,
     : stream_(model, longest_gap),
       recogniser_(model, settings, std::move(tables)),
       standing_(*model),
-      choice_(model->frame_rate) {}
+      choice_(model->frame_rate),
+      forget_(static_cast<float>(1 - std::exp(-1 / (strange_seconds * model->frame_rate)))) {}
 
 void LiveRecogniser::begin_anew() noexcept {
   recogniser_.reset();
@@ -45,6 +52,9 @@ bool LiveRecogniser::next() noexcept {
     first_ = next_is_first_;
     next_is_first_ = false;
     choice_.advance(recogniser_.styles());
+    const float now = recogniser_.decision().distance;
+    if (first_) distance_ = now;
+    distance_ += forget_ * (now - distance_);
     return true;
   }
   return false;

@@ -48,6 +48,11 @@ class LiveRecogniser {
     return unlikeness(decision().distance,
                       static_cast<float>(recogniser_.model().play.usual_distance));
   }
+  // Whether the motion of the last third of a second is none that was taught: further off than 98 %
+  // of what was held out.
+  bool strange() const noexcept {
+    return distance_ > static_cast<float>(recogniser_.model().play.usual_distance);
+  }
   // Seconds by which the phase estimate is late at the time of the last frame pushed, and by which
   // the decision is.
   double estimate_late() const noexcept { return recogniser_.late() + stream_.waited(); }
@@ -68,6 +73,7 @@ class LiveRecogniser {
   StandingDetector standing_;
   StyleChoice choice_;
   bool first_ = true, next_is_first_ = true;
+  float distance_ = 0, forget_;  // the decisions', leaking
 };
 
 }  // namespace gait
