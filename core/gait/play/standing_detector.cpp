@@ -10,11 +10,11 @@ namespace {
 
 constexpr double long_difference = 1.0 / 6;  // seconds, about
 constexpr double window = 0.7;               // seconds
-// Shares of the quietest style's activity. The least of a captured walk was 0.57 of its style's;
-// one who stands and sways by a degree shows a third of the quietest's.
-constexpr double standing_share = 0.40, walking_share = 0.53;
-constexpr double loudest_quietest =
-    0.35;  // a model of lively walks alone must know slower ones too
+// Shares of the quietest style's activity. The least of a captured walk was 0.55 of its style's;
+// one who stands with every joint swaying by nearly a degree shows 0.29 of the quietest's.
+constexpr double standing_share = 0.32, walking_share = 0.43;
+// A model of lively walks alone must know slower ones too.
+constexpr double loudest_quietest = 0.35;
 
 // How much the mean walk of the model's quietest style changes over its `lag`th difference, as a
 // share of all training's.
