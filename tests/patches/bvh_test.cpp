@@ -216,6 +216,28 @@ TEST(BvhObject, plays_several_performers_by_their_numbers) {
   EXPECT_EQ(lines_with(run.recorded("info"), "list 2 time 1"), 1u);
 }
 
+TEST(BvhObject, allocates_nothing_while_it_plays_and_records) {
+  GAIT_NEEDS_PD();
+  if (!can_watch()) GTEST_SKIP() << "the sanitizer has an allocator of its own";
+  Patch patch;
+  patch.object("gait.model gait-demo -blocking");
+  const int watch = patch.object("watch"),
+            bvh = patch.object("gait.bvh gait-demo gait-demo:drunk -blocking"),
+            looper = patch.object("gait.bvh gait-demo -blocking");
+  patch.connect(bvh, 1, looper, 1);
+  patch.at_start({"loop 0.5 2.5", "rate 0.7"}, bvh);
+  patch.at_start({"record 1"}, looper);
+  const std::vector<std::string> frames = times(100, "bang");
+  patch.at_start(frames, bvh);  // buffers grow once, and every half minute of recording
+  patch.at_start({"1"}, watch);
+  patch.at_start(frames + std::vector<std::string>{"goto 1", "rate 2"} + frames, bvh);
+  patch.at_start({"0"}, watch);
+  patch.quit_after(10);
+  const PdRun run = run_pd(patch, {.home = "", .state = "", .watched = true});
+  ASSERT_EQ(run.exit_code, 0) << run.log;
+  EXPECT_EQ(watched_allocations(run), 0) << run.log;
+}
+
 TEST(BvhObject, is_restored_by_its_dump) {
   GAIT_NEEDS_PD();
   BvhPatch patch("gait-demo");
