@@ -114,10 +114,16 @@ TEST(BodyStage, puts_parts_together_to_the_body_they_are_of_and_walks_as_its_fee
     place_body(clip, 0, roles, in_double, 0, hips.cast<double>());
     const WorldPoses world = world_poses(clip);
     EXPECT_LT((whole.root().hips - hips).norm(), 1e-4f) << frame;
+    std::vector<Eigen::Vector3d> places = world.positions;
+    for (int joint = 0; joint < body.skeleton.size(); ++joint)
+      for (const Eigen::Vector3d& tip : body.skeleton.joints[joint].tips)
+        places.push_back(world.positions[static_cast<std::size_t>(joint)] +
+                         world.rotations[static_cast<std::size_t>(joint)] * tip);
+    ASSERT_EQ(whole.positions().size(), 3 * places.size());
+    EXPECT_GT(places.size(), world.positions.size() + 6);  // hands, soles, the top of the head
     for (const auto& [parent, child] : whole.bones())
       for (const int joint : {parent, child})
-        ASSERT_LT((joint_at(whole, joint).cast<double>() -
-                   world.positions[static_cast<std::size_t>(joint)])
+        ASSERT_LT((joint_at(whole, joint).cast<double>() - places[static_cast<std::size_t>(joint)])
                       .norm(),
                   1e-4)
             << "frame " << frame << ", joint " << joint;

@@ -56,9 +56,15 @@ BodyStage::BodyStage(std::shared_ptr<const Model> model)
     if (joint != hips_ && parents_[joint] < 0) above_[joint] = true;
   for (int joint = 0; joint < body.skeleton.size(); ++joint)
     if (joint != hips_ && !above_[joint]) bones_.push_back({parents_[joint], joint});
+  for (int joint = 0; joint < body.skeleton.size(); ++joint)
+    for (const Eigen::Vector3d& tip : body.skeleton.joints[joint].tips) {
+      if (above_[joint]) continue;
+      bones_.push_back({joint, body.skeleton.size() + static_cast<int>(tips_.size())});
+      tips_.push_back({static_cast<std::size_t>(joint), tip.cast<float>()});
+    }
   pose_ = world_ = references_;
   values_ = assembly_.values();
-  positions_.assign(3 * pose_.size(), 0.0f);
+  positions_.assign(3 * (pose_.size() + tips_.size()), 0.0f);
 }
 
 bool BodyStage::store_inputs(std::span<const float> values) noexcept {
@@ -201,6 +207,12 @@ void BodyStage::place_joints() noexcept {
       place = above + scale_ * (world_[parent] * offsets_[joint]);
     }
     std::copy_n(place.data(), 3, positions_.data() + 3 * joint);
+  }
+  for (std::size_t i = 0; i < tips_.size(); ++i) {
+    const auto& [joint, offset] = tips_[i];
+    const Eigen::Vector3f place =
+        Eigen::Vector3f(positions_.data() + 3 * joint) + scale_ * (world_[joint] * offset);
+    std::copy_n(place.data(), 3, positions_.data() + 3 * (pose_.size() + i));
   }
 }
 

@@ -65,14 +65,17 @@ class BodyStage {
   // Of the last frame.
   std::span<const float> pose() const noexcept;  // 3 per joint of the body
   const RootPlace& root() const noexcept { return root_; }
-  std::span<const float> positions() const noexcept { return positions_; }  // 3 per joint, world
-  float speed(int joint) const noexcept { return meter_.speed(joint); }     // rad/s
-  float energy() const noexcept { return meter_.energy(); }                 // 0 to 1
+  // Where it is in the world: 3 per joint, then 3 per tip (hands, soles, the top of the head: where
+  // bones end without a joint), joint by joint.
+  std::span<const float> positions() const noexcept { return positions_; }
+  float speed(int joint) const noexcept { return meter_.speed(joint); }          // rad/s
+  float energy() const noexcept { return meter_.energy(); }                      // 0 to 1
   bool touched(Foot foot) const noexcept { return feet_[index(foot)].touched; }  // with this frame
   // From the same foot's touch before to this one along the path, metres.
   std::optional<float> stride(Foot foot) const noexcept { return feet_[index(foot)].stride; }
 
-  // Pairs of joints, parent and child; joints above the hips have no bones.
+  // Pairs of joints, parent and child, then of joint and tip; a tip's number is its place in
+  // positions(), after all joints. Joints above the hips have no bones.
   const std::vector<std::array<int, 2>>& bones() const noexcept { return bones_; }
   const Model& model() const noexcept { return *model_; }
   void reset() noexcept;  // anew from its place; settings stay
@@ -102,6 +105,11 @@ class BodyStage {
   std::vector<int> parents_;
   std::vector<bool> above_;  // the hips
   std::vector<std::array<int, 2>> bones_;
+  struct Tip {
+    std::size_t joint = 0;
+    Eigen::Vector3f offset = Eigen::Vector3f::Zero();
+  };
+  std::vector<Tip> tips_;
 
   BodyAssembly assembly_;
   DelayedFrames roots_;  // x y z heading
