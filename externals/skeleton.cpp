@@ -94,6 +94,10 @@ class Skeleton final : public ModelUser {
     inputs_.assign(static_cast<std::size_t>(model.input.values), 0);
     outputs_.assign(static_cast<std::size_t>(model.output.values), 0);
     pose_.assign(stage_->pose().size(), 0);
+    // Pd takes memory for a word it has not heard yet: not at frame rate.
+    for (const char* word : {"bones", "pos", "root", "pose", "energy", "contact", "right", "left",
+                             "stride", "joint", "speed"})
+      gensym(word);
     figure_.reserve(static_cast<int>(stage_->positions().size()));
     body_.reserve(static_cast<int>(pose_.size()));
     settings_.apply(*stage_, [this](const char* what) { say_error(this->box(), what); });

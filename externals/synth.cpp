@@ -169,6 +169,11 @@ class Synth final : public ModelUser {
     const auto size = static_cast<std::size_t>(model.output.values);
     gauss_.assign(2 + 6 * size, 0);
     place_.assign(2 + model.styles.size(), 0);
+    // Pd takes memory for a word it has not heard yet: not at frame rate.
+    for (const char* word :
+         {"delay", "out", "pose", "phase", "cadence", "step", "contact", "queue"})
+      gensym(word);
+    for (const Label& label : model.labels) gensym(label.name.c_str());
     out_.reserve(static_cast<int>(std::max(size, synthesiser_->pose().size())));
     clock_.set_period(1000 / model.frame_rate);
     const auto failed = [this](const char* what) { say_error(this->box(), what); };
