@@ -100,7 +100,8 @@ void expect_smooth_joins(const StyledWalks& walks) {
         for (int frame = std::max(2, cycle.begin); frame < cycle.end; ++frame)
           captured.add(walk.clip, joints, frame);
     }
-    const Walked walked = walk_of_style(walks, static_cast<int>(style), 200, 70 + style);
+    // Ten minutes: of a tenth of that the percentile is uncertain by a tenth.
+    const Walked walked = walk_of_style(walks, static_cast<int>(style), 600, 70 + style);
     for (int frame = 2; frame < walked.clip.frames(); ++frame) {
       const double phase = walked.phase[frame], per_frame = phase - walked.phase[frame - 1];
       // From where the next cycle comes in to two frames after it has taken over.

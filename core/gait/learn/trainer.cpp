@@ -46,8 +46,8 @@ void set_durations(Model& model, const ObservationSet& observed) {
 }
 
 // Variance that any sensor gives each entry of an observation, scaled as they are. A joint that
-// rests at another angle in each style, and trembles in none, would otherwise be all that styles
-// are told by, and the slightest movement of it another style.
+// rests at another angle in each style, and trembles in none, would otherwise be all that steps and
+// styles are told by, and the slightest movement of it another step or style.
 Eigen::VectorXd sensor_variance(const Model& model) {
   constexpr double sensor_deviation = 3e-4;  // radians: 0.02 degrees, the quiet of a still suit
   std::vector<double> of_value;
@@ -80,6 +80,7 @@ void set_states(Model& model, const StateTable& table,
       State& state = label.states[k];
       state.mean = counted.mean();
       state.covariance = regularised(counted.covariance(), counted.count, target, regularisation);
+      state.covariance.diagonal().head(inputs) += sensor;
       state.stay = stay[index];
       state.weight = counted.count;
       state.duration = 1 / (1 - stay[index]) / model.frame_rate;

@@ -42,8 +42,8 @@ struct Learnt {
 // Throws Error when there is nothing to learn from.
 Learnt learn(const LearningTask& task, const LearningOptions& options);
 
-// Puts states into a model from statistics: means, regularised covariances, styles. `statistics`
-// and `stay` per state over all labels; `target`: T's diagonal over z.
+// Puts states into a model from statistics: means, regularised covariances (with a quiet sensor's
+// variance), styles. `statistics`, `stay`: per state of all labels; `target`: T's diagonal, over z.
 void set_states(Model& model, const StateTable& table,
                 const std::vector<StateStatistics>& statistics, const std::vector<double>& stay,
                 const Eigen::VectorXd& target, double regularisation);
