@@ -108,7 +108,7 @@ TEST(MissingInputs, loses_everything_and_lives) {
   }
 }
 
-TEST(MissingInputs, a_frame_that_is_not_a_number_does_not_stay) {
+TEST(MissingInputs, a_frame_that_is_no_measurement_does_not_stay) {
   const auto model = few_walks_model();
   const Eigen::MatrixXf inputs = held_out_inputs();
   for (const DecoderKind kind : {DecoderKind::viterbi, DecoderKind::forward, DecoderKind::lag}) {
@@ -119,6 +119,8 @@ TEST(MissingInputs, a_frame_that_is_not_a_number_does_not_stay) {
       Eigen::VectorXf given = inputs.col(frame);
       if (frame == 50) given[0] = std::numeric_limits<float>::quiet_NaN();
       if (frame == 51) given[4] = std::numeric_limits<float>::infinity();
+      if (frame == 52) given[7] = 1e30f;
+      if (frame == 53) given.setConstant(-std::numeric_limits<float>::max());
       player.advance({given.data(), static_cast<std::size_t>(given.size())});
       undisturbed.advance(frame_of(inputs, frame));
       if (player.available() == 0) continue;

@@ -28,8 +28,9 @@ class Player {
   Player(std::shared_ptr<const Model> model, const PlayerSettings& settings = {},
          std::shared_ptr<const StateTables> tables = nullptr);
 
-  // Takes the next frame: model.input.values values, missing ones ignored; one that is not finite
-  // is as the frame before had it. Afterwards `available` frames can be read.
+  // Takes the next frame: model.input.values values, missing ones ignored; one that is not finite,
+  // or absurdly far (see Recogniser), is as the frame before had it. Afterwards `available` frames
+  // can be read.
   void advance(std::span<const float> values) noexcept;
   // After the last frame, until reset: hands out what delays still hold back. False when there is
   // nothing more; else frames are `available`.

@@ -2,6 +2,7 @@
 
 #include <algorithm>
 #include <cmath>
+#include <limits>
 
 namespace gait {
 
@@ -53,6 +54,7 @@ Recogniser::Recogniser(std::shared_ptr<const Model> model, const RecogniserSetti
       wanted_(values_.size(), false),
       masked_(values_.size(), false),
       states_(Decoder::most_weighted) {
+  set_bounds();
   if (settings.style_memory) styles_.set_memory(static_cast<float>(*settings.style_memory));
   unseen_.reserve(values_.size());
   note_unseen();
@@ -77,11 +79,28 @@ const Recogniser::Held& Recogniser::held(int back) const noexcept {
   return ring_[(newest_ - back + size) % size];
 }
 
+// Sums of squares of what is further out would leave the range of floats, for ever. A deviation of
+// a rotation is at least 1e-3 rad, so that every rotation there is stays within.
+void Recogniser::set_bounds() {
+  constexpr double farthest = 1e4;  // deviations
+  lowest_ = Eigen::ArrayXf::Constant(model_->input.values, std::numeric_limits<float>::lowest());
+  highest_ = Eigen::ArrayXf::Constant(model_->input.values, std::numeric_limits<float>::max());
+  const Scaling& scaling = model_->input_scaling;
+  for (int i = 0; i < model_->input.statics(); ++i) {
+    const double reach = farthest * scaling.deviation[i];
+    const int value = model_->input.modelled[i];
+    lowest_[value] = static_cast<float>(scaling.mean[i] - reach);
+    highest_[value] = static_cast<float>(scaling.mean[i] + reach);
+  }
+}
+
 void Recogniser::hold_missing(std::span<const float> values) noexcept {
   const int history = history_of(*model_);
   for (std::size_t i = 0; i < values_.size(); ++i) {
-    // What is not a number would stay in the decoder's paths for ever.
-    const bool there = !missing_[i] && std::isfinite(values[i]);
+    // What is not a number, or no measurement, would stay in the decoder's paths for ever. (A
+    // comparison with what is not a number is false.)
+    const auto at = static_cast<Eigen::Index>(i);
+    const bool there = !missing_[i] && values[i] >= lowest_[at] && values[i] <= highest_[at];
     if (there) values_[i] = values[i];
     if (missing_[i])
       returned_[i] = 0;

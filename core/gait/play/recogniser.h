@@ -48,9 +48,10 @@ class Recogniser {
   Recogniser(std::shared_ptr<const Model> model, const RecogniserSettings& settings = {},
              std::shared_ptr<const StateTables> tables = nullptr);
 
-  // Takes the next frame: model.input.values values, missing ones ignored; one that is not finite
-  // is as the frame before had it. True when it decided on a frame, the one `lag()` frames before
-  // this; what follows then speaks of that one.
+  // Takes the next frame: model.input.values values, missing ones ignored; one that is not finite,
+  // or over 10000 deviations from its mean (no rotation is), is as the frame before had it. True
+  // when it decided on a frame, the one `lag()` frames before this; what follows then speaks of
+  // that one.
   bool advance(std::span<const float> values) noexcept;
   // After the last frame, until reset: decides on what the lag still holds back, a frame a call.
   // False when there is nothing more.
@@ -105,6 +106,7 @@ class Recogniser {
   };
 
   static PhaseClockSettings clock_settings_of(const Model& model, const PhaseEstimator& phase);
+  void set_bounds();
   void hold_missing(std::span<const float> values) noexcept;
   void keep_tables_current() noexcept;
   void note_unseen() noexcept;
@@ -125,6 +127,7 @@ class Recogniser {
   TableMaker maker_;
 
   std::vector<float> values_;          // held values, one per input value
+  Eigen::ArrayXf lowest_, highest_;    // of each, what can be a measurement
   std::vector<bool> missing_;          // as told
   std::vector<int> returned_;          // real frames in a row, up to the history and one
   std::vector<bool> wanted_, masked_;  // masks: that should be, that is in the tables or asked for
