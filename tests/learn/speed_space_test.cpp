@@ -3,6 +3,7 @@
 #include <gtest/gtest.h>
 
 #include <Eigen/Dense>
+#include <algorithm>
 #include <cmath>
 #include <numbers>
 
@@ -202,6 +203,34 @@ TEST(SpeedSpace, walks_at_one_speed_alone_still_slow_down_towards_standing) {
   EXPECT_TRUE(spaces.subjects.front().slope.allFinite());
   EXPECT_GT(spaces.subjects.front().slope.norm(), 0.1);
   EXPECT_EQ(spaces.law.power, 0.5);  // Inman's
+}
+
+// The walk as programs write it that put a joint above the hips, and the hips where they began.
+Walk below_another_joint(Walk walk, const Eigen::Vector3d& hips) {
+  Clip& clip = walk.clip;
+  const Clip alone = clip;
+  for (Joint& joint : clip.skeleton.joints) ++joint.parent;
+  clip.skeleton.joints.front().offset = hips;
+  clip.skeleton.joints.insert(clip.skeleton.joints.begin(), {"World", -1, {0, 0, 0}, {}});
+  clip.resize(alone.frames());
+  for (int frame = 0; frame < alone.frames(); ++frame) {
+    std::ranges::copy(alone.pose(frame), clip.pose(frame).begin() + 1);
+    std::ranges::copy(alone.translation(frame), clip.translation(frame).begin() + 1);
+  }
+  return walk;
+}
+
+TEST(SpeedSpace, where_the_hips_lie_in_the_file_is_no_bone) {
+  std::vector<Walk> walks;
+  for (const Walk& walk : learnt().walks)
+    walks.push_back(below_another_joint(
+        walk, walks.size() % 2 == 0 ? Eigen::Vector3d(0, 0, 1) : Eigen::Vector3d(-1, 0, 0)));
+  const auto subjects = cycles_of_subjects(walks, body_of_subjects(walks));
+  ASSERT_EQ(subjects.size(), learnt().subjects.size());
+  for (std::size_t i = 0; i < subjects.size(); ++i) {
+    ASSERT_EQ(subjects[i].cycles.size(), learnt().subjects[i].cycles.size());
+    EXPECT_LT((subjects[i].cycles[0].values - learnt().subjects[i].cycles[0].values).norm(), 1e-6);
+  }
 }
 
 TEST(SpeedSpace, what_cannot_be_learnt_from_is_said) {

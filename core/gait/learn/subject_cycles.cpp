@@ -27,11 +27,16 @@ bool is_standing(const Walk& walk) {
 
 std::string subject_of(const Walk& walk) { return walk.subject.empty() ? "anyone" : walk.subject; }
 
-// The body with this subject's bones.
+// The body with this subject's bones. Where the hips lie in the file is no bone: some programs
+// write there where a walk began.
 Body body_of_subject(const Body& body, const Clip& clip) {
   Body own = body;
+  const int hips = body_roles(body).hips;
+  const std::vector<int> below = joints_below_hips(body);
   std::string missing, turned;
-  for (Joint& joint : own.skeleton.joints) {
+  for (int i = 0; i < own.skeleton.size(); ++i) {
+    Joint& joint = own.skeleton.joints[i];
+    const bool bone = i != hips && std::find(below.begin(), below.end(), i) != below.end();
     const int at = clip.skeleton.find(joint.name);
     if (at < 0) {
       missing += (missing.empty() ? "" : ", ") + joint.name;
@@ -39,8 +44,7 @@ Body body_of_subject(const Body& body, const Clip& clip) {
     }
     const Joint& theirs = clip.skeleton.joints[at];
     const double lengths = joint.offset.norm() * theirs.offset.norm();
-    if (joint.parent >= 0 && lengths > 1e-4 &&
-        joint.offset.dot(theirs.offset) < std::cos(other_rig) * lengths)
+    if (bone && lengths > 1e-4 && joint.offset.dot(theirs.offset) < std::cos(other_rig) * lengths)
       turned += (turned.empty() ? "" : ", ") + joint.name;
     joint.offset = theirs.offset;
     joint.tips = theirs.tips;

@@ -175,7 +175,7 @@ std::shared_ptr<const SpeedTables> make_speed_tables(const Model& model, double 
     if (space.frames != first.frames || space.joints != first.joints)
       throw Error("model " + model.name + ": expected all subjects' cycles alike; those of " +
                   subject.subject + " have other frames or joints");
-    const SharedLines own{subject.intercept, subject.slope, subject.standing};
+    const SharedLines own{subject.intercept, subject.slope, subject.standing, subject.projected};
     tables->subjects.push_back(
         cycles_over_speed(subject, space, shared ? subject.shared : own, grounded));
   }
