@@ -49,7 +49,8 @@ std::vector<Frame> stream(Reconstructor& reconstructor, const InputPoses& poses,
 
 TEST(Reconstructor, decides_alike_on_a_walk_sent_at_30_60_and_120_frames_a_second) {
   const auto model = few_walks_model();
-  for (const char* style : {"proud", "sad", "drunk", "in-a-hurry", "heavy", "tiptoeing"}) {
+  for (const WalkStyle& walked : corpus_styles()) {
+    const std::string& style = walked.name;
     std::map<int, std::vector<Frame>> at_rate;
     for (const int rate : {30, 60, 120}) {
       Reconstructor reconstructor(model);
@@ -68,7 +69,7 @@ TEST(Reconstructor, decides_alike_on_a_walk_sent_at_30_60_and_120_frames_a_secon
       }
       const double share = static_cast<double>(alike) / static_cast<double>(frames);
       EXPECT_GE(share, 0.98) << style << " at " << rate;
-      RecordProperty(std::string(style) + "_" + std::to_string(rate), std::to_string(share));
+      RecordProperty(style + "_" + std::to_string(rate), std::to_string(share));
     }
   }
 }
