@@ -8,6 +8,7 @@
 #include "gait/corpus/demo_model.h"
 #include "gait/motion/rest_calibration.h"
 #include "interrupt.h"
+#include "model_argument.h"
 #include "play_options.h"
 #include "progress.h"
 #include "walk_files.h"
@@ -44,10 +45,7 @@ Evaluation judge(const std::shared_ptr<const Model>& model, const EvaluateOption
 Command evaluate_command(CLI::App& program) {
   const auto options = std::make_shared<EvaluateOptions>();
   CLI::App* app = program.add_subcommand("evaluate", "Say how well a model does on captured walks");
-  app->add_option("MODEL", options->model, "Model file, or gait-demo: the one that is built in")
-      ->required()
-      ->default_str("")
-      ->type_name("");
+  add_model_argument(*app, options->model);
   add_walk_reading(*app, options->reading);
   add_play_options(*app, options->settings);
   app->add_flag("--json", options->json, "Report as JSON: every figure, per clip, style and joint");

@@ -9,7 +9,9 @@
 
 #include "commands.h"
 #include "gait/corpus/demo_model.h"
+#include "gait/judge/stream_summary.h"
 #include "gait/model/model_words.h"
+#include "model_argument.h"
 #include "play_options.h"
 #include "space_report.h"
 
@@ -60,10 +62,20 @@ std::string number(double value) {
   return text;
 }
 
-void print_streams(const char* what, const std::vector<Stream>& streams, int values, int moving) {
+// Degrees of rotations, the stream's own unit of anything else.
+double told_deviation(const Stream& stream, const StreamSummary& summary) {
+  return stream.kind == StreamKind::rotation ? degrees * summary.deviation : summary.deviation;
+}
+
+void print_streams(const char* what, const std::vector<Stream>& streams,
+                   const std::vector<StreamSummary>& summaries, int values, int moving) {
   print_row(what, std::to_string(streams.size()) + " streams, " + std::to_string(values) +
-                      " values, " + std::to_string(moving) + " of them move");
-  print_row("", joined(names_of(streams)));
+                      " values, " + std::to_string(moving) +
+                      " of them move (deviations, rotations in degrees):");
+  std::vector<std::string> words;
+  for (std::size_t i = 0; i < streams.size(); ++i)
+    words.push_back(streams[i].name + " " + number(told_deviation(streams[i], summaries[i])));
+  print_row("", joined(words));
 }
 
 void print_labels(const Model& model) {
@@ -127,12 +139,14 @@ void print_text(const Model& model) {
   print_row("rate", number(model.frame_rate) + " frames/s");
   print_row("body", model.body ? std::to_string(model.body->skeleton.size()) + " joints"
                                : "none: its streams are plain values");
-  print_streams("inputs", model.inputs, model.input.values, model.input.statics());
+  print_streams("inputs", model.inputs, summaries_of_inputs(model), model.input.values,
+                model.input.statics());
   std::string history;
   for (const int lag : model.input.lags)
     history += (history.empty() ? "" : ", ") + number(1000 * lag / model.frame_rate);
   print_row("", history.empty() ? "each frame by itself" : "compared with " + history + " ms ago");
-  print_streams("outputs", model.outputs, model.output.values, model.output.statics());
+  print_streams("outputs", model.outputs, summaries_of_outputs(model), model.output.values,
+                model.output.statics());
   print_labels(model);
   print_row("styles", model.styles.empty() ? "none" : joined(model.styles));
   std::printf("\nPlayed, unless told otherwise:\n");
@@ -142,11 +156,15 @@ void print_text(const Model& model) {
   print_training(model.training);
 }
 
-ordered_json as_json(const std::vector<Stream>& streams, int values, int moving) {
+ordered_json as_json(const std::vector<Stream>& streams,
+                     const std::vector<StreamSummary>& summaries, int values, int moving) {
   ordered_json list = ordered_json::array();
-  for (const Stream& stream : streams)
-    list.push_back(
-        {{"name", stream.name}, {"size", stream.size}, {"kind", kind_name(stream.kind)}});
+  for (std::size_t i = 0; i < streams.size(); ++i)
+    list.push_back({{"name", streams[i].name},
+                    {"size", streams[i].size},
+                    {"kind", kind_name(streams[i].kind)},
+                    {"moving", summaries[i].moving},
+                    {"deviation", told_deviation(streams[i], summaries[i])}});
   return {{"streams", list}, {"values", values}, {"values_moving", moving}};
 }
 
@@ -189,28 +207,29 @@ void print_json(const Model& model) {
                         {"role", role_name(model.body->roles[joint])}});
   }
   const PlayDefaults& play = model.play;
-  const ordered_json report{
-      {"name", model.name},
-      {"comment", model.training.comment},
-      {"synthetic", model.training.synthetic},
-      {"frame_rate", model.frame_rate},
-      {"joints", joints},
-      {"inputs", as_json(model.inputs, model.input.values, model.input.statics())},
-      {"history_ms", lags},
-      {"outputs", as_json(model.outputs, model.output.values, model.output.statics())},
-      {"labels", labels},
-      {"styles", model.styles},
-      {"play",
-       {{"decoder", decoder_name(play.decoder)},
-        {"lag", play.lag},
-        {"temper", play.temper},
-        {"past", play.past},
-        {"future", play.future},
-        {"strength", play.strength},
-        {"style_memory", play.style_memory},
-        {"style_temper", play.style_temper}}},
-      {"spaces", spaces_as_json(model)},
-      {"training", as_json(model.training)}};
+  const ordered_json report{{"name", model.name},
+                            {"comment", model.training.comment},
+                            {"synthetic", model.training.synthetic},
+                            {"frame_rate", model.frame_rate},
+                            {"joints", joints},
+                            {"inputs", as_json(model.inputs, summaries_of_inputs(model),
+                                               model.input.values, model.input.statics())},
+                            {"history_ms", lags},
+                            {"outputs", as_json(model.outputs, summaries_of_outputs(model),
+                                                model.output.values, model.output.statics())},
+                            {"labels", labels},
+                            {"styles", model.styles},
+                            {"play",
+                             {{"decoder", decoder_name(play.decoder)},
+                              {"lag", play.lag},
+                              {"temper", play.temper},
+                              {"past", play.past},
+                              {"future", play.future},
+                              {"strength", play.strength},
+                              {"style_memory", play.style_memory},
+                              {"style_temper", play.style_temper}}},
+                            {"spaces", spaces_as_json(model)},
+                            {"training", as_json(model.training)}};
   std::puts(report.dump(2, ' ', false, nlohmann::json::error_handler_t::replace).c_str());
 }
 
@@ -219,10 +238,7 @@ void print_json(const Model& model) {
 Command info_command(CLI::App& program) {
   const auto options = std::make_shared<InfoOptions>();
   CLI::App* app = program.add_subcommand("info", "Say what is in a model");
-  app->add_option("MODEL", options->model, "Model file, or gait-demo: the one that is built in")
-      ->required()
-      ->default_str("")
-      ->type_name("");
+  add_model_argument(*app, options->model);
   app->add_flag("--json", options->json, "Report as JSON");
   app->footer(
       "Durations are in seconds, angles in degrees.\n\n"

@@ -8,6 +8,7 @@
 
 #include "commands.h"
 #include "gait/corpus/demo_model.h"
+#include "model_argument.h"
 #include "model_figures.h"
 #include "number_words.h"
 
@@ -43,10 +44,7 @@ void plot(const PlotOptions& options) {
 Command plot_command(CLI::App& program) {
   const auto options = std::make_shared<PlotOptions>();
   CLI::App* app = program.add_subcommand("plot", "Draw what a model holds");
-  app->add_option("MODEL", options->model, "Model file, or gait-demo: the one that is built in")
-      ->required()
-      ->default_str("")
-      ->type_name("");
+  add_model_argument(*app, options->model);
   app->add_option("WHAT", options->what, "variance, scores, cycles, speed or frequency")
       ->required()
       ->default_str("")

@@ -9,6 +9,7 @@
 #include "decision_table.h"
 #include "gait/corpus/demo_model.h"
 #include "gait/judge/reconstructed_file.h"
+#include "model_argument.h"
 #include "output_file.h"
 #include "play_options.h"
 
@@ -48,10 +49,7 @@ Command reconstruct_command(CLI::App& program) {
   const auto options = std::make_shared<ReconstructOptions>();
   CLI::App* app = program.add_subcommand(
       "reconstruct", "Find the joints a model synthesises from those it is given");
-  app->add_option("MODEL", options->model, "Model file, or gait-demo: the one that is built in")
-      ->required()
-      ->default_str("")
-      ->type_name("");
+  add_model_argument(*app, options->model);
   app->add_option("CLIP", options->clip, "BVH file")->required()->default_str("")->type_name("");
   app->add_option("-o,--output", options->output,
                   "BVH file to write: same skeleton, rate and frames, input joints untouched")

@@ -10,6 +10,7 @@
 #include "gait/corpus/demo_model.h"
 #include "gait/judge/planned_walk.h"
 #include "gait/motion/bvh.h"
+#include "model_argument.h"
 #include "number_range.h"
 #include "number_words.h"
 #include "output_file.h"
@@ -68,10 +69,7 @@ void synth(const SynthOptions& options) {
 Command synth_command(CLI::App& program) {
   const auto options = std::make_shared<SynthOptions>();
   CLI::App* app = program.add_subcommand("synth", "Walk in a style, or a mix of them");
-  app->add_option("MODEL", options->model, "Model file, or gait-demo: the one that is built in")
-      ->required()
-      ->default_str("")
-      ->type_name("");
+  add_model_argument(*app, options->model);
   app->add_option("--style", options->style, "Style to walk in")->type_name("NAME");
   app->add_option("--mix", options->mix, "Styles by weight: proud=0.7,sad=0.3")->type_name("MIX");
   app->add_option("--then", options->changes,

@@ -10,6 +10,7 @@
 #include "gait/corpus/demo_model.h"
 #include "gait/judge/planned_walk.h"
 #include "gait/motion/bvh.h"
+#include "model_argument.h"
 #include "number_range.h"
 #include "output_file.h"
 #include "speed_words.h"
@@ -59,10 +60,7 @@ void walk(const WalkOptionsSaid& options) {
 Command walk_command(CLI::App& program) {
   const auto options = std::make_shared<WalkOptionsSaid>();
   CLI::App* app = program.add_subcommand("walk", "Walk at a speed, on legs of a length");
-  app->add_option("MODEL", options->model, "Model file that was learnt from walks over speed")
-      ->required()
-      ->default_str("")
-      ->type_name("");
+  add_model_argument(*app, options->model);
   app->add_option("--speed", options->speed,
                   "m/s, or with the suffix km/h; FROM:TO changes on the way; 0 stands")
       ->required()

@@ -6,6 +6,7 @@
 #include <string>
 
 #include "gait/judge/space_summary.h"
+#include "gait/judge/stream_summary.h"
 
 namespace gait::tool {
 
@@ -47,15 +48,11 @@ ordered_json as_json(const CycleSpace& space, const SpaceSummary& summary) {
 }  // namespace
 
 void print_spaces(const Model& model) {
-  std::printf("\nWalks by itself");
-  if (!model.style_space && model.speed_spaces.empty()) {
-    std::printf(
-        " with neither the style walker (no styles learnt) nor the speed walker (no walks\n"
-        "at several speeds).\n");
-    return;
-  }
-  std::printf(" in styles: %s; at any speed: %s\n", model.style_space ? "yes" : "no",
-              model.speed_spaces.empty() ? "no" : "yes");
+  std::printf(
+      "\nWalks by itself step by step: %s; in styles: %s; at any speed: %s\n",
+      has_trajectories(model) ? "yes" : "no", model.style_space ? "yes" : "no",
+      model.speed_spaces.empty() ? "no (it takes somebody's walks at several speeds)" : "yes");
+  if (!model.style_space && model.speed_spaces.empty()) return;
   std::printf("Components that carry a share of the variance (in brackets: cycles over them)\n");
   std::printf("  %-20s %6s %5s", "space", "cycles", "kept");
   for (const double share : told_shares) std::printf("  %9d %%", percent(share));
@@ -82,7 +79,7 @@ ordered_json spaces_as_json(const Model& model) {
     entry.update(as_json(subject.space, summary_of(subject)));
     speeds.push_back(entry);
   }
-  return {{"styles", styles}, {"speeds", speeds}};
+  return {{"steps", has_trajectories(model)}, {"styles", styles}, {"speeds", speeds}};
 }
 
 }  // namespace gait::tool

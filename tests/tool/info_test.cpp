@@ -1,7 +1,9 @@
 // gait info: what a model says of itself.
 #include <gtest/gtest.h>
 
+#include <cmath>
 #include <nlohmann/json.hpp>
+#include <numbers>
 
 #include "gait/model/model_file.h"
 #include "walking_takes.h"
@@ -34,6 +36,13 @@ TEST(Info, tells_what_training_put_in) {
   EXPECT_EQ(report["inputs"]["streams"].size(), model.inputs.size());
   EXPECT_EQ(report["outputs"]["streams"][0]["name"], "Hips");
   EXPECT_EQ(report["outputs"]["streams"][0]["kind"], "rotation");
+  double squares = 0;
+  for (int value = 0; value < 3; ++value)
+    squares += std::pow(model.output_scaling.deviation[value], 2);
+  EXPECT_EQ(report["outputs"]["streams"][0]["moving"], 3);
+  EXPECT_NEAR(report["outputs"]["streams"][0]["deviation"],
+              180 / std::numbers::pi * std::sqrt(squares), 1e-9);
+  EXPECT_EQ(report["spaces"]["steps"], true);
   EXPECT_EQ(report["play"]["decoder"], "viterbi");
   EXPECT_EQ(report["training"]["regularisation_chosen_by"], "given");
   EXPECT_EQ(report["training"]["clips"].size(), 4u);
