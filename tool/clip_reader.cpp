@@ -63,7 +63,16 @@ ReadClip read_clip(const std::filesystem::path& path, const ClipReading& reading
   read.frame = guess_body_frame(in_file, read.roles, said_of_frame(reading));
   print_warnings(command, read.frame.warnings);
   read.clip = in_metres_y_up(in_file, read.frame);
+  read.roles_without_joint = names_not_in(in_file.skeleton, table);
   return read;
+}
+
+void warn_of_roles(const std::string& command, const ClipReading& reading,
+                   const std::vector<std::string>& without_joint) {
+  if (without_joint.empty()) return;
+  std::string names;
+  for (const std::string& name : without_joint) names += (names.empty() ? "" : ", ") + name;
+  print_warnings(command, {reading.roles + ": names joints that no clip has: " + names});
 }
 
 }  // namespace gait::tool

@@ -36,10 +36,15 @@ struct ReadClip {
   Clip clip;     // metres, Y up
   JointRoles roles;
   BodyFrame frame;
+  std::vector<std::string> roles_without_joint;  // names of --roles that this clip does not have
 };
 
 // Reads one BVH file. Warnings go to stderr as `gait COMMAND: warning: ...`. Throws Error.
 ReadClip read_clip(const std::filesystem::path& path, const ClipReading& reading,
                    const std::string& command);
+
+// A warning where --roles names joints that no clip has: misspelt, most likely.
+void warn_of_roles(const std::string& command, const ClipReading& reading,
+                   const std::vector<std::string>& without_joint);
 
 }  // namespace gait::tool

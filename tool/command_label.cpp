@@ -33,6 +33,7 @@ struct LabelledClip {
 
 LabelledClip label_clip(const std::string& path, const ClipReading& reading) {
   const ReadClip read = read_clip(path, reading, "label");
+  warn_of_roles("label", reading, read.roles_without_joint);
   LabelledClip labelled{path, read.clip.frames(), read.clip.frame_rate, {}, {}};
   labelled.track = follow_walk(read.clip, read.roles);
   labelled.steps = steps_between(labelled.track.contacts);

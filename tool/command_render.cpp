@@ -60,6 +60,7 @@ std::string ending_of(const std::string& path) {
 
 WalkView view_clip(const std::string& path, const RenderOptions& options) {
   const ReadClip read = read_clip(path, options.reading, "render");
+  warn_of_roles("render", options.reading, read.roles_without_joint);
   if (read.clip.frames() == 0) throw Error(path + ": has no frames, nothing to draw");
   WalkView view = view_walk(read.clip, read.roles, camera_degrees(options.view));
   view.name = std::filesystem::path(path).stem().string();

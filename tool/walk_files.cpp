@@ -191,12 +191,19 @@ WalksRead read_walks(const WalkReading& reading, const std::string& command,
   const Said said(reading, command);
   const std::vector<fs::path> files = files_meant(reading, said.manifest());
   if (files.empty()) throw Error(reading.manifest + ": names no clips");
+  std::vector<std::string> without_joint;  // names of --roles, until a clip has them
+  for (const auto& entry : read.roles) without_joint.push_back(entry.first);
   for (std::size_t i = 0; i < files.size(); ++i) {
     const fs::path& path = files[i];
     progress(static_cast<double>(i) / static_cast<double>(files.size()), path.filename().string());
     WalkFile file{path, ""};
     Walk walk;
-    walk.clip = read_clip(path, reading.clip, command).clip;
+    ReadClip in_file = read_clip(path, reading.clip, command);
+    walk.clip = std::move(in_file.clip);
+    std::erase_if(without_joint, [&](const std::string& name) {
+      return std::count(in_file.roles_without_joint.begin(), in_file.roles_without_joint.end(),
+                        name) == 0;
+    });
     const NameFields fields = said.of(path, file.remark);
     walk.style = fields.style;
     walk.subject = fields.subject;
@@ -205,6 +212,7 @@ WalksRead read_walks(const WalkReading& reading, const std::string& command,
     read.walks.push_back(std::move(walk));
     read.files.push_back(std::move(file));
   }
+  warn_of_roles(command, reading.clip, without_joint);
   return read;
 }
 
