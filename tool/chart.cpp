@@ -5,6 +5,7 @@
 #include <cmath>
 #include <cstdio>
 #include <set>
+#include <sstream>
 
 #include "output_file.h"
 
@@ -20,7 +21,7 @@ constexpr double left_room = 74;    // ticks' numbers
 constexpr double top_room = 40;     // the y axis' label
 constexpr double bottom_room = 62;  // ticks' numbers and the x axis' label
 constexpr double gap = 34;          // between panels
-constexpr double legend_line = 30, legend_mark = 44;
+constexpr double legend_line = 30, legend_mark = 44, note_line = 22;
 constexpr double marker_radius = 4.5;
 
 // Okabe and Ito's set without yellow, which paper swallows.
@@ -38,13 +39,20 @@ std::vector<double> dashes_of(Stroke stroke) {
   return {};
 }
 
-// 1, 2 or 5 times a power of ten, so that there are about `wanted` ticks.
+// 1, 2 or 5 times a power of ten, so that there are about `wanted` ticks, and three at least.
 double tick_step(const Axis& axis, double wanted) {
+  constexpr std::array<double, 3> times{5, 2, 1};
   const double rough = (axis.high - axis.low) / wanted;
-  const double power = std::pow(10, std::floor(std::log10(rough)));
-  double step = 10 * power;
-  for (const double times : {5.0, 2.0, 1.0})
-    if (times * power >= rough) step = times * power;
+  const auto ticks = [&](double step) {
+    return std::floor(axis.high / step) - std::ceil(axis.low / step) + 1;
+  };
+  double power = std::pow(10, std::floor(std::log10(rough)) + 1), step = power;
+  for (std::size_t i = 0; i < 3 * times.size(); ++i) {
+    if (i % times.size() == 0) power /= 10;
+    const double finer = times[i % times.size()] * power;
+    if (finer < rough && ticks(step) >= 3) break;
+    step = finer;
+  }
   return axis.whole ? std::max(1.0, step) : step;
 }
 
@@ -120,6 +128,10 @@ void draw_x_axis(Canvas& canvas, const Field& field) {
 
 void draw_marker(Canvas& canvas, const Spot& at, Marker marker, Colour colour) {
   if (marker == Marker::none) return;
+  if (marker == Marker::triangle) {
+    canvas.mark(at.x, at.y - 1.2 * marker_radius, 2.6 * marker_radius, colour);
+    return;
+  }
   canvas.disc(at.x, at.y, marker_radius, colour);
   if (marker == Marker::ring) canvas.disc(at.x, at.y, marker_radius - 2, paper);
 }
@@ -153,7 +165,23 @@ std::vector<const Series*> legend_of(const Chart& chart) {
 struct Page {
   double width = 0, height = 0, legend_y = 0, cell = 0;
   int legend_columns = 1;
+  std::vector<std::string> note;  // line by line
 };
+
+std::vector<std::string> broken_into_lines(Canvas& measure, const std::string& text, double size,
+                                           double room) {
+  std::vector<std::string> lines(1);
+  std::istringstream words(text);
+  for (std::string word; words >> word;) {
+    std::string& line = lines.back();
+    const std::string longer = line.empty() ? word : line + ' ' + word;
+    if (line.empty() || measure.text_width(longer, size) <= room)
+      line = longer;
+    else
+      lines.push_back(word);
+  }
+  return lines;
+}
 
 // Text is measured on a page of its own: the real one's height depends on it.
 Page page_for(const Chart& chart, const std::vector<const Series*>& legend) {
@@ -164,8 +192,8 @@ Page page_for(const Chart& chart, const std::vector<const Series*>& legend) {
   page.height = margin + title_size + rows * (top_room + chart.panel_height + bottom_room) +
                 (rows - 1) * 6 + 10;
   page.legend_y = page.height + 22;
+  Canvas measure = Canvas::of_pixels(1, 1);
   if (!legend.empty()) {
-    Canvas measure = Canvas::of_pixels(1, 1);
     for (const Series* series : legend)
       page.cell = std::max(page.cell, measure.text_width(series->name, label_size));
     page.cell = std::min(page.cell + legend_mark + 40, page.width - 2 * margin);
@@ -173,7 +201,10 @@ Page page_for(const Chart& chart, const std::vector<const Series*>& legend) {
     const int entries = static_cast<int>(legend.size());
     page.height += legend_line * ((entries + page.legend_columns - 1) / page.legend_columns) + 8;
   }
-  if (!chart.note.empty()) page.height += 26;
+  if (!chart.note.empty()) {
+    page.note = broken_into_lines(measure, chart.note, note_size, page.width - 2 * margin);
+    page.height += note_line * static_cast<double>(page.note.size()) + 4;
+  }
   page.height += margin / 2;
   return page;
 }
@@ -203,9 +234,11 @@ void draw_chart(Canvas& canvas, const Chart& chart, const Page& page,
     canvas.text(x + legend_mark, y, series.name, label_size, ink, Align::left,
                 page.cell - legend_mark - 12);
   }
-  if (!chart.note.empty())
-    canvas.text(margin, page.height - margin / 2 - 6, chart.note, note_size, quiet_ink, Align::left,
-                page.width - 2 * margin);
+  for (std::size_t i = 0; i < page.note.size(); ++i)
+    canvas.text(
+        margin,
+        page.height - margin / 2 - 6 - note_line * static_cast<double>(page.note.size() - 1 - i),
+        page.note[i], note_size, quiet_ink, Align::left, page.width - 2 * margin);
 }
 
 void fit(Axis& axis, const std::vector<Series>& series, double Spot::*value, double room) {
@@ -222,11 +255,19 @@ void fit(Axis& axis, const std::vector<Series>& series, double Spot::*value, dou
 
 }  // namespace
 
-Colour line_colour(std::size_t line) { return colours[line % colours.size()]; }
+Colour line_colour(std::size_t line) {
+  const Colour colour = colours[line % colours.size()];
+  const double shade = line / colours.size() % 2 == 0 ? 1 : 0.55;
+  return {shade * colour.red, shade * colour.green, shade * colour.blue};
+}
 
 Stroke line_stroke(std::size_t line) {
   constexpr std::array strokes{Stroke::solid, Stroke::dashed, Stroke::dotted};
   return strokes[line / colours.size() % strokes.size()];
+}
+
+Marker line_marker(std::size_t line) {
+  return line / colours.size() % 2 == 0 ? Marker::disc : Marker::triangle;
 }
 
 void fit_x(Panel& panel) { fit(panel.x, panel.series, &Spot::x, 0.02); }

@@ -1,8 +1,8 @@
 // A figure of panels with axes, lines and points, drawn with Cairo: for print as for the screen.
 //
 // Panels lie row by row; all of them share the legend below. Colours stay apart for every kind of
-// colour vision (Okabe and Ito 2008), and where there are more lines than colours dashes tell them
-// apart.
+// colour vision (Okabe and Ito 2008); where there are more lines than colours they come again
+// darker, with other marks and dashes.
 #pragma once
 
 #include <string>
@@ -13,7 +13,7 @@
 namespace gait::tool {
 
 enum class Stroke { none, solid, dashed, dotted };
-enum class Marker { none, disc, ring };
+enum class Marker { none, disc, ring, triangle };
 
 struct Series {
   std::string name;  // in the legend, once for each name; empty: not there
@@ -38,15 +38,16 @@ struct Panel {
 };
 
 struct Chart {
-  std::string title, note;  // note: a line of small print below
+  std::string title, note;  // note: small print below
   std::vector<Panel> panels;
   int columns = 1;
   double panel_width = 620, panel_height = 300;  // pixels, of the field within the axes
 };
 
-// Colours and strokes for lines that are told apart: 0, 1, 2, ...
+// Colours, strokes and marks for lines that are told apart: 0, 1, 2, ...
 Colour line_colour(std::size_t line);
 Stroke line_stroke(std::size_t line);
+Marker line_marker(std::size_t line);
 
 // Widens an axis so that all points of the panel's series lie well inside. What was set (low below
 // high) only grows.

@@ -63,14 +63,10 @@ void add_lines(Panel& panel, const Lines& lines, Eigen::Index score, std::size_t
       {"", colour, Stroke::dotted, Marker::none, 2, {standing, at(subject.slowest)}});
   panel.series.push_back(
       {"", colour, Stroke::dotted, Marker::none, 2, {at(subject.fastest), at(highest(subject))}});
-  panel.series.push_back({subject.subject,
-                          colour,
-                          Stroke::solid,
-                          Marker::none,
-                          3,
-                          {at(subject.slowest), at(subject.fastest)}});
+  panel.series.push_back(
+      {"", colour, Stroke::solid, Marker::none, 3, {at(subject.slowest), at(subject.fastest)}});
   panel.series.push_back({"", colour, Stroke::none, Marker::ring, 2, {standing}});
-  Series cycles{"", colour, Stroke::none, Marker::disc, 1, {}};
+  Series cycles{subject.subject, colour, Stroke::none, line_marker(line), 1, {}};
   for (int i = 0; i < subject.cycles; ++i)
     cycles.points.push_back({subject.speeds[i], lines.projected(score, i)});
   panel.series.push_back(std::move(cycles));
@@ -115,7 +111,7 @@ Chart speed_figure(const Model& model, const std::string& subject) {
     chart.panels.push_back(std::move(panel));
   }
   chart.note =
-      "After G04 fig. 4 to 6. Discs: captured cycles. Unbroken: over the captured speeds; dotted: "
+      "After G04 fig. 4 to 6. Marks: captured cycles. Unbroken: over the captured speeds; dotted: "
       "down to standing (ring) and on to 10 km/h.";
   return chart;
 }
@@ -134,17 +130,21 @@ Chart frequency_figure(const std::shared_ptr<const Model>& model) {
   walker.set_law(SpeedLaw::feet);
   std::size_t line = 0;
   for (const SpeedSpace& subject : model->speed_spaces) {
-    const Colour colour = line_colour(line++);
+    const Colour colour = line_colour(line);
     const auto fitted = [&](double v) {
       return subject.frequency_scale * std::pow(v, subject.frequency_power);
     };
-    panel.series.push_back(
-        {subject.subject + ", " + law_text(subject.frequency_scale, subject.frequency_power),
-         colour, Stroke::solid, Marker::none, 3,
-         law_points(subject.slowest, subject.fastest, fitted)});
+    panel.series.push_back({"", colour, Stroke::solid, Marker::none, 3,
+                            law_points(subject.slowest, subject.fastest, fitted)});
     panel.series.push_back(
         {"", colour, Stroke::solid, Marker::none, 1.2, law_points(0, highest(subject), fitted)});
-    Series cycles{"", colour, Stroke::none, Marker::disc, 1, {}};
+    Series cycles{
+        subject.subject + ", " + law_text(subject.frequency_scale, subject.frequency_power),
+        colour,
+        Stroke::none,
+        line_marker(line++),
+        1,
+        {}};
     for (int i = 0; i < subject.cycles; ++i)
       cycles.points.push_back({subject.speeds[i], subject.frequencies[i]});
     panel.series.push_back(std::move(cycles));
@@ -163,9 +163,8 @@ Chart frequency_figure(const std::shared_ptr<const Model>& model) {
   chart.panels.push_back(std::move(panel));
   chart.panel_width = 900, chart.panel_height = 520;
   chart.note =
-      "After G04 fig. 7. Discs: captured cycles. Thick: over the captured speeds; dotted: the "
-      "frequency at which the feet "
-      "travel at V (law feet).";
+      "After G04 fig. 7. Marks: captured cycles. Lines: the law a V^b, thick over the captured "
+      "speeds; dotted: the frequency at which the feet travel at V (law feet).";
   return chart;
 }
 
