@@ -34,12 +34,6 @@ std::string joined(const std::vector<std::string>& words) {
   return text;
 }
 
-std::vector<std::string> names_of(const std::vector<Stream>& streams) {
-  std::vector<std::string> names;
-  for (const Stream& stream : streams) names.push_back(stream.name);
-  return names;
-}
-
 std::vector<std::string> successors_of(const Model& model, const Label& label) {
   std::vector<std::string> names;
   for (const int successor : label.successors) names.push_back(model.labels[successor].name);
