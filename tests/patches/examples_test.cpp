@@ -2,6 +2,7 @@
 #include <gtest/gtest.h>
 
 #include <algorithm>
+#include <array>
 #include <cmath>
 #include <cstring>
 #include <filesystem>
@@ -159,6 +160,22 @@ TEST(Examples, sound_when_they_walk_and_are_silent_before) {
     EXPECT_LT(play(example, {{50, "walk-in 1"}}, 1, 3).peak(), 1e-6)
         << example << " without a level";
   }
+}
+
+TEST(Examples, perpetual_walker_keeps_and_recalls_presets) {
+  GAIT_NEEDS_PD();
+  const auto walked = [](std::vector<Told> messages) {
+    messages.insert(messages.end(), {{60, "walk-in 1"}, {60, "level-in 1"}});
+    return play("perpetual-walker", messages, 1, 5);
+  };
+  const Sound first = walked({{50, "recall1 bang"}}), second = walked({{50, "recall2 bang"}}),
+              kept = walked({{20, "recall2 bang"},
+                             {30, "store4 bang"},
+                             {40, "recall1 bang"},
+                             {50, "recall4 bang"}});
+  for (const Sound* sound : {&first, &second, &kept}) expect_sound(*sound, "preset");
+  EXPECT_GT(std::abs(std::log(second.level() / first.level())), 0.02);
+  EXPECT_NEAR(kept.level(), second.level(), 0.25 * second.level());
 }
 
 // Another sound: brightness, level or onsets differ by a tenth.
