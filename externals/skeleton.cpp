@@ -24,13 +24,11 @@ class Skeleton final : public ModelUser {
 
   void out(const Arguments& arguments) {
     if (!ready_for_frame()) return;
-    if (!take_frame(arguments, outputs_, [this] { return stage_->show_outputs(outputs_); })) return;
-    show();
+    if (show_frame(arguments, outputs_, [this] { return stage_->show_outputs(outputs_); })) show();
   }
   void pose(const Arguments& arguments) {
     if (!ready_for_frame()) return;
-    if (!take_frame(arguments, pose_, [this] { return stage_->show_pose(pose_); })) return;
-    show();
+    if (show_frame(arguments, pose_, [this] { return stage_->show_pose(pose_); })) show();
   }
   // What was measured, to be shown with the outputs that are made from it.
   void cold(const Arguments& arguments) {
@@ -118,6 +116,16 @@ class Skeleton final : public ModelUser {
              std::to_string(values.size()) + " finite numbers, got " +
              std::to_string(arguments.size());
     });
+    return false;
+  }
+
+  // The same of a frame that is shown: what it costs is counted, and those that cannot be.
+  template <class Take>
+  bool show_frame(const Arguments& arguments, std::vector<float>& values, Take taken) {
+    Perf::Frame frame(perf());
+    if (take_frame(arguments, values, taken)) return true;
+    frame.forget();
+    perf().drop();
     return false;
   }
 
