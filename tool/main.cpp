@@ -10,6 +10,9 @@
 
 #include "commands.h"
 #include "gait/error.h"
+#ifdef GAIT_HAS_OSC
+#include "osc_commands.h"
+#endif
 
 namespace {
 
@@ -89,6 +92,9 @@ int main(int argc, char** argv) try {
       gait::tool::evaluate_command(program), gait::tool::reconstruct_command(program),
       gait::tool::synth_command(program),    gait::tool::walk_command(program),
       gait::tool::render_command(program),   gait::tool::plot_command(program),
+#ifdef GAIT_HAS_OSC
+      gait::tool::stream_command(program),   gait::tool::listen_command(program),
+#endif
   };
   for (const Command& command : commands)
     command.app->set_help_flag("-h,--help", "What this subcommand does");

@@ -1,0 +1,98 @@
+#include "gait/motion/calibration_pose.h"
+
+#include <cmath>
+#include <optional>
+
+#include "gait/error.h"
+#include "gait/motion/rotation.h"
+
+namespace gait {
+
+namespace {
+
+constexpr double shortest_bone = 0.01;  // metres; shorter ones have no direction to speak of
+
+// Where a limb's bone points; nothing for joints that are not swung.
+std::optional<Eigen::Vector3d> direction_of(Role role, CalibrationPose pose) {
+  const bool out = pose == CalibrationPose::t;
+  switch (role) {
+    case Role::left_arm:
+    case Role::left_forearm:
+    case Role::left_hand:
+      return out ? Eigen::Vector3d(1, 0, 0) : Eigen::Vector3d(0, -1, 0);
+    case Role::right_arm:
+    case Role::right_forearm:
+    case Role::right_hand:
+      return out ? Eigen::Vector3d(-1, 0, 0) : Eigen::Vector3d(0, -1, 0);
+    case Role::left_thigh:
+    case Role::left_shank:
+    case Role::right_thigh:
+    case Role::right_shank:
+      return Eigen::Vector3d(0, -1, 0);
+    default:
+      return std::nullopt;
+  }
+}
+
+// The way from a joint to where its limb goes on, in its own frame: to the next joint of the limb,
+// over joints without a role.
+Eigen::Vector3d limb_of(const Skeleton& skeleton, const JointRoles& roles, int joint) {
+  const Role role = roles.of_joint[joint];
+  const bool hand = role == Role::left_hand || role == Role::right_hand;
+  Eigen::Vector3d mean = Eigen::Vector3d::Zero();
+  for (int child = joint + 1; child < skeleton.size(); ++child) {
+    if (skeleton.joints[child].parent != joint) continue;
+    const Role below = roles.of_joint[child];
+    const bool next = below == static_cast<Role>(static_cast<int>(role) + 1);
+    if (!hand && next) return skeleton.joints[child].offset;
+    mean += skeleton.joints[child].offset;
+  }
+  for (const Eigen::Vector3d& tip : skeleton.joints[joint].tips) mean += tip;
+  return mean;
+}
+
+Eigen::Vector3d place_at(const Skeleton& skeleton, std::span<const Eigen::Quaterniond> world,
+                         int joint) {
+  Eigen::Vector3d place = Eigen::Vector3d::Zero();
+  for (; joint >= 0 && skeleton.joints[joint].parent >= 0; joint = skeleton.joints[joint].parent)
+    place += world[skeleton.joints[joint].parent] * skeleton.joints[joint].offset;
+  return place;
+}
+
+}  // namespace
+
+std::vector<Eigen::Quaterniond> calibration_pose(const Skeleton& skeleton, const JointRoles& roles,
+                                                 std::span<const Eigen::Quaterniond> usual,
+                                                 CalibrationPose pose) {
+  if (!roles.has_legs())
+    throw Error("expected a rig whose hips and legs are known, to stand in a calibration pose");
+  std::vector<Eigen::Quaterniond> world(usual.begin(), usual.end());
+  // What lies above the hips carries the walk, not the body: it does not count.
+  const auto stand = [&](const Eigen::Quaterniond& turn) {
+    for (int joint = 0; joint < skeleton.size(); ++joint) {
+      const int parent = skeleton.joints[joint].parent;
+      if (joint == roles.hips)
+        world[joint] = turn * usual[joint];
+      else if (parent >= 0)
+        world[joint] = world[parent] * usual[joint];
+    }
+  };
+  stand(Eigen::Quaterniond::Identity());
+  const Eigen::Vector3d across =
+      place_at(skeleton, world, roles.left.thigh) - place_at(skeleton, world, roles.right.thigh);
+  const double heading = std::atan2(-across.z(), across.x());
+  stand(about_vertical(-heading));
+
+  for (int joint = 0; joint < skeleton.size(); ++joint) {
+    const int parent = skeleton.joints[joint].parent;
+    if (joint != roles.hips && parent >= 0) world[joint] = world[parent] * usual[joint];
+    const auto wanted = direction_of(roles.of_joint[joint], pose);
+    if (!wanted) continue;
+    const Eigen::Vector3d limb = limb_of(skeleton, roles, joint);
+    if (limb.norm() < shortest_bone) continue;
+    world[joint] = Eigen::Quaterniond::FromTwoVectors(world[joint] * limb, *wanted) * world[joint];
+  }
+  return world;
+}
+
+}  // namespace gait

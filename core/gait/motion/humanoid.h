@@ -1,0 +1,105 @@
+// Humanoid: the bones that programs which exchange live motion agree on, whatever their rigs are
+// called. Names and tree are those of Unity's HumanBodyBones, which the VMC protocol takes over.
+//
+// A body's pose is told by turns: per bone the rotation in the world since the T-pose, in which the
+// body stands upright, looks along +Z and stretches its arms along +X (left) and -X. Turns say
+// nothing of how a rig's joints lie at rest, so every rig can be read and driven by them. Metres, Y
+// up, right-handed.
+#pragma once
+
+#include <Eigen/Geometry>
+#include <array>
+#include <bitset>
+#include <span>
+#include <string_view>
+#include <vector>
+
+#include "gait/motion/joint_roles.h"
+#include "gait/motion/skeleton.h"
+
+namespace gait {
+
+enum class Bone {  // parents before children
+  hips,
+  spine,
+  chest,
+  upper_chest,
+  neck,
+  head,
+  left_shoulder,
+  left_upper_arm,
+  left_lower_arm,
+  left_hand,
+  right_shoulder,
+  right_upper_arm,
+  right_lower_arm,
+  right_hand,
+  left_upper_leg,
+  left_lower_leg,
+  left_foot,
+  left_toes,
+  right_upper_leg,
+  right_lower_leg,
+  right_foot,
+  right_toes,
+  // Without roles in walking; carried along where a recording wants them.
+  jaw,
+  left_eye,
+  right_eye,
+  left_fingers,  // fifteen: thumb, index, middle, ring, little; proximal, intermediate, distal
+  right_fingers = left_fingers + 15,
+};
+
+inline constexpr int humanoid_bones = static_cast<int>(Bone::right_fingers) + 15;
+inline constexpr int main_bones = static_cast<int>(Bone::jaw);  // those with a role
+
+constexpr int index_of(Bone bone) { return static_cast<int>(bone); }
+
+std::string_view bone_name(int bone);  // "LeftUpperArm"
+int bone_parent(int bone);             // -1 for the hips
+// By Unity's name in any case, or by what another rig's joint of that name is; -1: none of these.
+int bone_named(std::string_view name);
+// Of a role; the spine's first for Role::spine, -1 for Role::none.
+int bone_of(Role role);
+
+// What each joint of a skeleton takes from the bones. Where a spine or neck has several joints,
+// each takes its share of the way.
+struct JointBone {
+  int bone = -1;     // -1: follows its parent
+  double share = 1;  // of the turn from the bone before; for the spine: of the whole spine
+};
+std::vector<JointBone> bones_of_joints(const Skeleton& skeleton, std::span<const Role> roles);
+
+struct HumanoidPose {
+  std::bitset<humanoid_bones> turned, placed;  // what is known
+  std::array<Eigen::Quaterniond, humanoid_bones> turns;
+  std::array<Eigen::Vector3d, humanoid_bones> places;  // in the world, metres
+
+  HumanoidPose() { clear(); }
+  void clear() noexcept {
+    turned.reset();
+    placed.reset();
+    turns.fill(Eigen::Quaterniond::Identity());
+    places.fill(Eigen::Vector3d::Zero());
+  }
+  // The nearest bone above that is turned, -1 when there is none.
+  int turned_above(int bone) const noexcept {
+    do bone = bone_parent(bone);
+    while (bone >= 0 && !turned[static_cast<std::size_t>(bone)]);
+    return bone;
+  }
+};
+
+// From a frame that mirrors X to ours, and back: Unity's is left-handed with X to the right.
+inline Eigen::Quaterniond mirrored(const Eigen::Quaterniond& q) noexcept {
+  return {q.w(), q.x(), -q.y(), -q.z()};
+}
+inline Eigen::Vector3d mirrored(const Eigen::Vector3d& v) noexcept {
+  return {-v.x(), v.y(), v.z()};
+}
+
+// Offsets of a person of 1.7 m in the T-pose, per bone from its parent: for senders that tell no
+// positions.
+Eigen::Vector3d usual_offset(int bone);
+
+}  // namespace gait

@@ -1,0 +1,42 @@
+// Event ring: from one writing thread to one reading thread, without locks, in order, bounded: what
+// does not fit is refused.
+#pragma once
+
+#include <atomic>
+#include <bit>
+#include <cstddef>
+#include <vector>
+
+namespace gait::osc {
+
+template <typename T>
+class EventRing {
+ public:
+  // Holds at least `capacity` entries.
+  explicit EventRing(std::size_t capacity) : entries_(std::bit_ceil(capacity)) {}
+
+  // The writing thread. False: full, nothing was kept.
+  bool push(const T& entry) noexcept {
+    const std::size_t at = written_.load(std::memory_order_relaxed);
+    if (at - read_.load(std::memory_order_acquire) >= entries_.size()) return false;
+    entries_[at & (entries_.size() - 1)] = entry;
+    written_.store(at + 1, std::memory_order_release);
+    return true;
+  }
+  // The reading thread. False: empty.
+  bool pop(T& entry) noexcept {
+    const std::size_t at = read_.load(std::memory_order_relaxed);
+    if (at == written_.load(std::memory_order_acquire)) return false;
+    entry = entries_[at & (entries_.size() - 1)];
+    read_.store(at + 1, std::memory_order_release);
+    return true;
+  }
+  std::size_t capacity() const noexcept { return entries_.size(); }
+
+ private:
+  std::vector<T> entries_;
+  alignas(64) std::atomic<std::size_t> written_{0};
+  alignas(64) std::atomic<std::size_t> read_{0};
+};
+
+}  // namespace gait::osc

@@ -1,0 +1,98 @@
+// Live body: one performer on a model's body, frame by frame as they come.
+//
+// Humanoids of any rig are brought to the model's by turns and a calibration; named joints and
+// values (the project's own form) are taken at their word. What stops coming is held, and missing
+// after a while. Joints whose sender never told them are missing from the start. Nothing allocates
+// after construction.
+#pragma once
+
+#include <Eigen/Geometry>
+#include <memory>
+#include <optional>
+#include <span>
+#include <string>
+#include <vector>
+
+#include "gait/model/model.h"
+#include "gait/motion/humanoid_body.h"
+#include "gait/motion/sender_calibration.h"
+#include "gait/osc/recent_heading.h"
+#include "gait/osc/rotation_filter.h"
+#include "gait/osc/sender_pose.h"
+
+namespace gait::osc {
+
+struct LiveFrame {
+  double time = 0;                // of arrival, seconds
+  std::span<const float> inputs;  // values of the `in` message
+  std::span<const float> pose;    // of the whole body; empty for a model of plain streams
+  bool posed = false;             // whether the whole body was told, not its inputs alone
+  Eigen::Vector3f hips = Eigen::Vector3f::Zero();
+  float heading = 0;
+};
+
+class LiveBody {
+ public:
+  explicit LiveBody(std::shared_ptr<const Model> model);
+
+  // The next frame that comes is the calibration pose. Own form: nothing to calibrate.
+  void calibrate(CalibrationPose pose) noexcept { calibrate_ = pose; }
+  bool calibrated() const noexcept { return calibration_.is_set(); }
+  void set_yaw(double radians) noexcept { yaw_ = radians; }
+  // Seconds that what stops coming is held.
+  void set_hold(double seconds) noexcept { hold_ = seconds; }
+  // Hz at rest of the 1-euro filter; 0: off.
+  void set_smoothing(double hertz) noexcept { filter_.set_cutoff(hertz); }
+  // Another sender in this place: nothing of the last one holds.
+  void reset() noexcept;
+
+  // False when the frame tells nothing of this model (values of another count).
+  bool take(const CapturedFrame& captured) noexcept;
+  const LiveFrame& frame() const noexcept { return frame_; }
+
+  // Whether an input has become missing or come back since it was asked last. `input`: index into
+  // the model's inputs; `there` is then how it is now.
+  bool changed(int input, bool& there) noexcept;
+  // For all inputs to be told anew.
+  void tell_all() noexcept { told_.assign(told_.size(), Told::not_yet); }
+
+ private:
+  enum class Told : char { not_yet, there, missing };
+  bool take_humanoid(const CapturedFrame& captured) noexcept;
+  bool take_named(const CapturedFrame& captured) noexcept;
+  bool take_values(const CapturedFrame& captured) noexcept;
+  void find_joints(const CapturedFrame& captured) noexcept;
+  void finish(const CapturedFrame& captured) noexcept;
+  void mark(int joint, double seen) noexcept;
+
+  std::shared_ptr<const Model> model_;
+  std::optional<HumanoidBody> humanoid_;  // none without a body that has legs
+  std::vector<Eigen::Quaternionf> references_;
+  std::vector<int> all_joints_;
+  int hips_ = -1;
+  Eigen::Vector3d right_to_left_thigh_ = Eigen::Vector3d::Zero();
+  double rest_height_ = 0;  // of the hips, metres
+
+  SenderPose sender_;
+  SenderCalibration calibration_;
+  std::optional<CalibrationPose> calibrate_;
+  double yaw_ = 0, hold_ = 0.5;
+  RotationFilter filter_;
+  RecentHeading heading_;
+
+  HumanoidPose body_pose_;
+  std::vector<Eigen::Quaterniond> local_;  // hips in the world
+  std::vector<Eigen::Quaternionf> pose_;   // hips with heading out
+  std::vector<double> seen_;               // per joint of the body
+  std::vector<int> named_of_;              // per joint of the body: index among named ones, -1
+  int named_known_ = 0;
+  std::vector<Told> told_;
+  std::vector<int> input_of_;  // per input: its joint, -1: a plain stream
+  std::vector<float> inputs_, values_;
+  LiveFrame frame_;
+};
+
+// A humanoid driven on a model's body: its usual pose is the model's references.
+HumanoidBody humanoid_of(const Body& body);
+
+}  // namespace gait::osc

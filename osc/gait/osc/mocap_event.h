@@ -1,0 +1,56 @@
+// Mocap event: one thing that a sender of motion said, of a fixed size, so that it can go from a
+// receiving thread to a playing one without memory being made.
+#pragma once
+
+#include <array>
+#include <cstdint>
+#include <optional>
+#include <string_view>
+#include <type_traits>
+
+namespace gait::osc {
+
+enum class MocapForm : std::uint8_t { none, vmc, natnet, neuron, kinect, gait };
+
+std::string_view form_name(MocapForm form);  // "vmc"
+std::optional<MocapForm> form_named(std::string_view name);
+
+enum class MocapKind : std::uint8_t {
+  bone,    // a humanoid's bone: place, rotation or both
+  root,    // what carries the body: place and rotation (own form: place and heading)
+  joint,   // a joint by its own name (own form)
+  rig,     // a joint's parent and offset (own form)
+  values,  // some values of a frame (own form)
+  edge     // a frame has ended
+};
+
+struct MocapEvent {
+  static constexpr std::size_t name_size = 40;    // longer names are no joints
+  static constexpr std::size_t most_numbers = 7;  // values in one event
+
+  MocapKind kind = MocapKind::edge;
+  MocapForm form = MocapForm::none;
+  bool placed = false, rotated = false;
+  bool relative = false;     // joint: a rotation vector relative to the model's reference
+  std::int16_t bone = -1;    // index of a humanoid's bone
+  std::int16_t first = 0;    // values: index of the first
+  std::int16_t count = 0;    // values: how many
+  std::uint32_t stream = 0;  // which skeleton or user of this sender
+  std::uint64_t sender = 0;  // address and port it came from
+  double time = 0;           // of arrival, seconds on a steady clock
+  // In the sender's own axes and metres; quaternions x y z w of length one.
+  std::array<float, 3> place{};
+  std::array<float, 4> rotation{0, 0, 0, 1};
+  std::array<float, most_numbers> numbers{};
+  std::array<char, name_size> name{}, parent{};
+};
+static_assert(std::is_trivially_copyable_v<MocapEvent>);
+
+// Who takes events. Called on the thread that reads.
+class EventSink {
+ public:
+  virtual ~EventSink() = default;
+  virtual void take(const MocapEvent& event) = 0;
+};
+
+}  // namespace gait::osc

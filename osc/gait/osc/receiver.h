@@ -1,0 +1,62 @@
+// Receiver: a UDP port on which motion is listened to, by a thread of its own. It hands events over
+// without locks; memory is bounded, and what does not fit is dropped and counted.
+#pragma once
+
+#include <atomic>
+#include <cstdint>
+#include <memory>
+#include <thread>
+
+#include "gait/osc/event_ring.h"
+#include "gait/osc/mocap_event.h"
+#include "gait/osc/mocap_reader.h"
+
+namespace gait::osc {
+
+struct ReceiverSettings {
+  int port = 39539;                  // 0: any free one
+  bool any = false;                  // from other machines too, not only this one
+  MocapForm form = MocapForm::none;  // none: every form that is recognised
+  std::size_t capacity = 1 << 14;    // events: at 60 bones and 120 frames a second, two seconds
+};
+
+struct Received {  // since the beginning
+  std::uint64_t packets = 0;
+  std::uint64_t messages = 0;
+  std::uint64_t unknown = 0;  // messages that move no body
+  std::uint64_t faulty = 0;   // broken packets, wrong types or numbers
+  std::uint64_t dropped = 0;  // events for which there was no room
+};
+
+class Receiver final : EventSink {
+ public:
+  // Opens the port and starts the thread. Throws Error when the port is taken or not allowed.
+  explicit Receiver(const ReceiverSettings& settings);
+  ~Receiver() override;
+  Receiver(const Receiver&) = delete;
+  Receiver& operator=(const Receiver&) = delete;
+
+  int port() const noexcept { return port_; }
+  // The next event, in the order of arrival; false when there is none. One thread at a time.
+  bool pop(MocapEvent& event) noexcept { return ring_.pop(event); }
+  Received received() const noexcept;
+
+  // Seconds on the clock by which arrivals are told.
+  static double now() noexcept;
+
+ private:
+  void run();
+  void receive_all(std::span<std::byte> buffer);
+  void take(const MocapEvent& event) override;
+  void take_message(const OscMessage& message);
+
+  MocapReader reader_;
+  EventRing<MocapEvent> ring_;
+  int socket_ = -1, port_ = 0;
+  int wake_[2] = {-1, -1};  // a pipe: its closing ends the thread
+  Arrival arrival_;
+  std::atomic<std::uint64_t> packets_{0}, messages_{0}, unknown_{0}, faulty_{0}, dropped_{0};
+  std::thread thread_;
+};
+
+}  // namespace gait::osc

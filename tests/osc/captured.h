@@ -1,0 +1,76 @@
+// Packets as a sender would make them, read back without a socket.
+#pragma once
+
+#include <string>
+#include <vector>
+
+#include "gait/osc/frame_gatherer.h"
+#include "gait/osc/mocap_reader.h"
+#include "gait/osc/packet.h"
+#include "gait/osc/packet_template.h"
+
+namespace gait::testing {
+
+// What a reader makes of packets.
+class Listened final : public osc::EventSink, public osc::FrameSink {
+ public:
+  explicit Listened(int slots = 1, osc::MocapForm form = osc::MocapForm::none)
+      : reader(form), gatherer(slots) {}
+
+  // `time`: of arrival, seconds. Another `sender`, another program.
+  void hear(std::span<const std::byte> packet, double time, std::uint64_t sender = 1) {
+    arrival = {time, sender};
+    faulty += osc::open_packet(
+                  packet,
+                  [](void* self, const osc::OscMessage& message) {
+                    static_cast<Listened*>(self)->message(message);
+                  },
+                  this)
+                  .faulty;
+  }
+  void hear(std::span<const osc::PacketTemplate> packets, double time, std::uint64_t sender = 1) {
+    for (const auto& packet : packets) hear(packet.bytes(), time, sender);
+  }
+  // One message, all numbers as f or i.
+  void say(const std::string& path, const std::string& types,
+           const std::vector<std::string>& strings, const std::vector<float>& numbers,
+           double time = 0) {
+    osc::PacketTemplate packet;
+    packet.add(path, types, strings);
+    packet.set(numbers);
+    hear(packet.bytes(), time);
+  }
+
+  void take(const osc::MocapEvent& event) override {
+    events.push_back(event);
+    gatherer.take(event, *this);
+  }
+  void frame(int performer, const osc::CapturedFrame& captured) noexcept override {
+    performers.push_back(performer);
+    frames.push_back(captured);
+  }
+
+  osc::MocapReader reader;
+  osc::FrameGatherer gatherer;
+  osc::Arrival arrival;
+  std::vector<osc::MocapEvent> events;
+  std::vector<osc::CapturedFrame> frames;
+  std::vector<int> performers;
+  int faulty = 0, unknown = 0;
+
+ private:
+  void message(const osc::OscMessage& message) {
+    switch (reader.read(message, arrival, *this)) {
+      case osc::Reading::faulty:
+        ++faulty;
+        break;
+      case osc::Reading::unknown:
+        ++unknown;
+        break;
+      case osc::Reading::taken:
+        break;
+    }
+  }
+};
+
+}  // namespace gait::testing

@@ -1,0 +1,113 @@
+// gait listen: live motion that comes over OSC, recorded as a BVH file.
+#include <chrono>
+#include <cstdio>
+#include <memory>
+#include <optional>
+#include <string>
+#include <thread>
+
+#include "gait/error.h"
+#include "gait/motion/bvh.h"
+#include "gait/osc/receiver.h"
+#include "gait/osc/recording.h"
+#include "interrupt.h"
+#include "number_range.h"
+#include "osc_commands.h"
+#include "output_file.h"
+
+namespace gait::tool {
+
+namespace {
+
+constexpr auto poll_interval = std::chrono::milliseconds(2);
+
+struct ListenOptions {
+  int port = 39539;
+  std::string output, form;
+  std::optional<double> seconds;
+  bool any = false;
+};
+
+class Recorder final : public osc::FrameSink {
+ public:
+  void frame(int, const osc::CapturedFrame& frame) noexcept override {
+    if (frame.values > 0) values_only = true;
+    if (recording.frames() == 0) first = frame.form;
+    recording.add(frame);
+  }
+  osc::Recording recording;
+  osc::MocapForm first = osc::MocapForm::none;
+  bool values_only = false;
+};
+
+void listen(const ListenOptions& options) {
+  const Interrupt interrupt;
+  OutputFile output(options.output);
+  osc::Receiver receiver(
+      {.port = options.port,
+       .any = options.any,
+       .form = options.form.empty() ? osc::MocapForm::none : *osc::form_named(options.form)});
+  std::fprintf(stderr, "gait listen: on port %d, until %sCtrl-C\n", receiver.port(),
+               options.seconds ? "the time is up or " : "");
+  osc::FrameGatherer gatherer(1);
+  Recorder recorder;
+  osc::MocapEvent event;
+  const auto begin = std::chrono::steady_clock::now();
+  while (!interrupt.token().stop_requested()) {
+    while (receiver.pop(event)) gatherer.take(event, recorder);
+    gatherer.end_old(osc::Receiver::now(), recorder);
+    const std::chrono::duration<double> passed = std::chrono::steady_clock::now() - begin;
+    if (options.seconds && passed.count() >= *options.seconds) break;
+    std::this_thread::sleep_for(poll_interval);
+  }
+  gatherer.end_old(1e300, recorder);
+  const osc::Received received = receiver.received();
+  const osc::Recording& recording = recorder.recording;
+  if (recording.frames() == 0) {
+    const std::string port = "port " + std::to_string(receiver.port());
+    if (recorder.values_only)
+      throw Error(port + ": only values of a model came (/gait/frame), which have no rig; send " +
+                  "with --form gait or vmc");
+    throw Error(port + ": expected a body's motion, got " + std::to_string(received.packets) +
+                " packets and no frame");
+  }
+  if (received.dropped > 0 || received.faulty > 0)
+    std::fprintf(stderr, "gait listen: warning: %llu events were dropped, %llu messages faulty\n",
+                 static_cast<unsigned long long>(received.dropped),
+                 static_cast<unsigned long long>(received.faulty));
+  const Clip clip = recording.clip(options.output);
+  write_bvh(bvh_from_clip(clip), output.part());
+  output.keep();
+  std::printf("%d frames at %g per second, %d joints, form %s\n", clip.frames(), clip.frame_rate,
+              clip.skeleton.size(), std::string(osc::form_name(recorder.first)).c_str());
+}
+
+}  // namespace
+
+Command listen_command(CLI::App& program) {
+  const auto options = std::make_shared<ListenOptions>();
+  CLI::App* app = program.add_subcommand("listen", "Record live motion that comes over OSC");
+  app->add_option("PORT", options->port, "Port to listen on")
+      ->required()
+      ->default_str("")
+      ->check(within(1, 65535))
+      ->type_name("");
+  app->add_option("-o,--output", options->output, "BVH file to write, in metres")
+      ->required()
+      ->type_name("BVH");
+  app->add_option("--seconds", options->seconds, "How long to listen (until Ctrl-C)")
+      ->check(within(0.1, 36000.0))
+      ->type_name("S");
+  app->add_option("--form", options->form, "Read only this form (whichever comes)")
+      ->check(CLI::IsMember({"vmc", "natnet", "neuron", "kinect", "gait"}).description(""))
+      ->type_name("vmc|natnet|neuron|kinect|gait");
+  app->add_flag("--any", options->any, "From other machines too, not from this one alone")
+      ->default_str("");
+  app->footer(
+      "Examples:\n"
+      "  gait listen 39539 -o take.bvh --seconds 30\n"
+      "  gait listen 39539 -o take.bvh --any");
+  return {app, [options] { listen(*options); }};
+}
+
+}  // namespace gait::tool
