@@ -205,6 +205,7 @@ class Viterbi final : public ModelUser {
     if (!streaming_) {
       streaming_ = true;
       told_places_ = 0;
+      step_ = style_ = -1;  // what begins is told even if it is what ended
       stop_.cancel();
       tell(true, "stream");
     }
