@@ -363,7 +363,13 @@ void Train::finish(const std::shared_ptr<Learning>& learning) {
   info_.add(1).send("progress");
   trained_ = learning->model;
   judged_ = learning->learnt.judged;
-  if (judged_.takes > 0)
+  if (judged_.takes > 0 && outputs_ > 0)
+    post("gait.train: %s: when a take was left out, what sounds was off by %.2f of its deviation%s",
+         model_name().c_str(), judged_.error,
+         judged_.error <= 0.25  ? ": good"
+         : judged_.error <= 0.6 ? ": more takes would help"
+                                : ": it hardly follows from what moves");
+  else if (judged_.takes > 0)
     post("gait.train: %s: %s recognised %.0f of 100 times when it was left out%s",
          model_name().c_str(), inputs_ > 0 ? "a take was" : "a step was", 100 * judged_.accuracy,
          judged_.accuracy >= 0.95 ? ": good"
