@@ -1,6 +1,8 @@
 # Where the library goes: one folder `gait`, by default among the user's own Pd externals; and the
 # archive that Pd's package finder (deken) takes.
-install(TARGETS gait_pd gait_pd64 LIBRARY DESTINATION gait COMPONENT pd)
+install(TARGETS gait_pd LIBRARY DESTINATION gait COMPONENT pd)
+# ./demo does not build it: whoever has a Pd with 64-bit floats builds everything.
+install(TARGETS gait_pd64 LIBRARY DESTINATION gait COMPONENT pd OPTIONAL)
 install(FILES ${GAIT_DEMO_MODEL} ${PROJECT_SOURCE_DIR}/LICENSE ${PROJECT_SOURCE_DIR}/README.md
         DESTINATION gait COMPONENT pd)
 foreach(object ${GAIT_PD_OBJECTS})
@@ -12,6 +14,12 @@ endforeach()
 if(EXISTS ${PROJECT_SOURCE_DIR}/abstractions)
   install(DIRECTORY ${PROJECT_SOURCE_DIR}/abstractions/ DESTINATION gait COMPONENT pd
           FILES_MATCHING PATTERN "*.pd")
+  # Pd looks for an abstraction's help beside it and nowhere else.
+  foreach(abstraction ${abstractions})
+    get_filename_component(name ${abstraction} NAME)
+    string(REGEX REPLACE "\\.pd$" "-help.pd" help ${name})
+    install(FILES ${PROJECT_SOURCE_DIR}/help_patches/${help} DESTINATION gait COMPONENT pd OPTIONAL)
+  endforeach()
 endif()
 foreach(folder help_patches examples)
   if(EXISTS ${PROJECT_SOURCE_DIR}/${folder})
