@@ -206,6 +206,7 @@ struct Bends {
                                   const WorldPoses& world, int frame) {
     const auto place = [&](Role role) {
       const auto joint = std::find(roles.begin(), roles.end(), role) - roles.begin();
+      if (joint == clip.skeleton.size()) return Eigen::Vector3d(0, 0, 0);  // hands may be missing
       return world.positions[static_cast<std::size_t>(frame) * clip.skeleton.size() + joint];
     };
     const auto bend = [&](Role a, Role b, Role c) {
