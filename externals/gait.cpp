@@ -19,6 +19,9 @@ void setup_all() {
   setup_bvh();
   setup_map();
   setup_model();
+#ifdef GAIT_HAS_OSC
+  setup_osc();
+#endif
   setup_pca();
   setup_phase();
   setup_train();
@@ -43,3 +46,6 @@ GAIT_ENTRY(setup_gait0x2epca)
 GAIT_ENTRY(setup_gait0x2ephase_tilde)
 GAIT_ENTRY(setup_gait0x2eskeleton)
 GAIT_ENTRY(setup_gait0x2etrain)
+#ifdef GAIT_HAS_OSC
+GAIT_ENTRY(setup_gait0x2eosc)
+#endif

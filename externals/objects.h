@@ -6,6 +6,7 @@ namespace gait::pd {
 void setup_bvh();
 void setup_map();
 void setup_model();
+void setup_osc();
 void setup_pca();
 void setup_phase();
 void setup_train();

@@ -38,14 +38,14 @@ bool SenderCalibration::set(const HumanoidPose& sender, const HumanoidPose& stan
 }
 
 void SenderCalibration::apply(HumanoidPose& pose, double yaw) const noexcept {
-  const Eigen::Quaterniond turn = about_vertical(yaw), back = facing_.conjugate();
+  const Eigen::Quaterniond facing = set_ ? facing_ * about_vertical(yaw) : about_vertical(-yaw);
+  const Eigen::Quaterniond back = facing.conjugate();
   for (std::size_t bone = 0; bone < humanoid_bones; ++bone) {
     if (set_ && !seen_[bone]) pose.turned.reset(bone);
     if (pose.turned[bone])
-      pose.turns[bone] =
-          set_ ? turn * (back * (pose.turns[bone] * before_[bone]) * facing_ * stand_[bone])
-               : turn * pose.turns[bone];
-    if (pose.placed[bone]) pose.places[bone] = turn * (back * pose.places[bone]);
+      pose.turns[bone] = set_ ? back * (pose.turns[bone] * before_[bone]) * facing * stand_[bone]
+                              : back * pose.turns[bone];
+    if (pose.placed[bone]) pose.places[bone] = back * pose.places[bone];
   }
 }
 

@@ -22,8 +22,10 @@ class SenderCalibration {
   bool set(const HumanoidPose& sender, const HumanoidPose& standing) noexcept;
   bool is_set() const noexcept { return set_; }
 
-  // In place: from the sender's rotations to turns of the body, then turned by `yaw` (radians)
-  // about the vertical. Bones that were not seen at calibration are not turned.
+  // In place: from the sender's rotations to turns of the body. `yaw` (radians about the vertical):
+  // without calibration the body is turned by it; with one it is added to the way the sender faced,
+  // for rigs that tell no places and whose hips lie turned. Bones that were not seen at calibration
+  // are not turned.
   void apply(HumanoidPose& pose, double yaw) const noexcept;
 
  private:

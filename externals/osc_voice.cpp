@@ -1,0 +1,139 @@
+#include "osc_voice.h"
+
+#include <algorithm>
+#include <cstdio>
+#include <numbers>
+
+namespace gait::pd {
+
+namespace {
+
+constexpr std::size_t head = 5;  // of a waiting frame: posed, x y z, heading
+
+}  // namespace
+
+OscVoice::OscVoice(std::shared_ptr<const Model> model, int number, const OscSettings& settings)
+    : model_(std::move(model)),
+      number_(number),
+      body_(model_),
+      waiting_(static_cast<int>(head) + values_of(model_->inputs) +
+               (model_->body ? 3 * model_->body->skeleton.size() : 0)),
+      inputs_(static_cast<std::size_t>(values_of(model_->inputs))),
+      pose_(model_->body ? 3 * model_->body->skeleton.joints.size() : 0) {
+  packed_.resize(head + inputs_ + pose_);
+  set(settings);
+}
+
+void OscVoice::set(const OscSettings& settings) {
+  body_.set_yaw(settings.yaw * std::numbers::pi / 180);
+  body_.set_hold(settings.hold);
+  body_.set_smoothing(settings.smooth);
+  waiting_.set_delay(settings.jitter / 1000);
+  hold_ = settings.hold;
+}
+
+void OscVoice::reset() {
+  body_.reset();
+  waiting_.reset();
+}
+
+void OscVoice::take(const osc::CapturedFrame& frame) noexcept {
+  if (frame.sender != sender_ || frame.stream != stream_ || frame.form != form_) {
+    // The same program may open another port for every take: what was calibrated holds on.
+    if (frame.form != form_) body_.reset();
+    sender_ = frame.sender, stream_ = frame.stream, form_ = frame.form;
+    changed_sender_ = true;
+  }
+  if (!body_.take(frame)) {
+    ++unfit_;
+    return;
+  }
+  const osc::LiveFrame& live = body_.frame();
+  packed_[0] = live.posed ? 1 : 0;
+  std::copy_n(live.hips.data(), 3, packed_.begin() + 1);
+  packed_[4] = live.heading;
+  std::copy(live.inputs.begin(), live.inputs.end(), packed_.begin() + head);
+  std::copy(live.pose.begin(), live.pose.end(),
+            packed_.begin() + static_cast<std::ptrdiff_t>(head + inputs_));
+  waiting_.push(frame.time, packed_);
+  last_ = frame.time;
+  flowing_ = true;
+  ++counted_;
+}
+
+Outlet& OscVoice::begin(Outlet& outlet, const char* selector) {
+  if (number_ >= 0) outlet.add(number_).add(selector);
+  return outlet;
+}
+
+void OscVoice::send(Outlet& outlet, const char* selector) {
+  outlet.send(number_ >= 0 ? "list" : selector);
+}
+
+void OscVoice::send_masks(Outlet& in) {
+  for (std::size_t i = 0; i < model_->inputs.size(); ++i) {
+    bool there = true;
+    if (!body_.changed(static_cast<int>(i), there)) continue;
+    begin(in, "mask").add(model_->inputs[i].name).add(there ? 1 : 0);
+    send(in, "mask");
+  }
+}
+
+void OscVoice::send_sender(Outlet& info) {
+  const auto address = static_cast<unsigned>(sender_ >> 16);
+  char name[64];
+  std::snprintf(name, sizeof name, "%u.%u.%u.%u:%u", address >> 24, address >> 16 & 255,
+                address >> 8 & 255, address & 255, static_cast<unsigned>(sender_ & 65535));
+  info.add(std::max(0, number_)).add(name);
+  info.send("performer");
+  begin(info, "form").add(std::string(osc::form_name(form_)));
+  send(info, "form");
+}
+
+void OscVoice::release(double now, Outlet& in, Outlet& pose, Outlet& info, Perf& perf) {
+  for (auto frame = waiting_.pop(now); !frame.empty(); frame = waiting_.pop(now)) {
+    const Perf::Frame measured(perf);
+    if (changed_sender_) {
+      changed_sender_ = false;
+      send_sender(info);
+    }
+    if (!said_flowing_) {
+      said_flowing_ = true;
+      rate_from_ = 0;
+      begin(info, "stream").add(1);
+      send(info, "stream");
+    }
+    if (frame[0] != 0 && pose_ > 0) {
+      begin(pose, "root").add(frame.subspan(1, 4));
+      send(pose, "root");
+      begin(pose, "pose").add(frame.subspan(head + inputs_));
+      send(pose, "pose");
+    }
+    send_masks(in);
+    begin(in, "in").add(frame.subspan(head, inputs_));
+    send(in, "in");
+  }
+}
+
+void OscVoice::report(double now, Outlet& info) {
+  if (flowing_ && said_flowing_ && now - last_ > hold_ && waiting_.waiting() == 0) {
+    flowing_ = said_flowing_ = false;
+    begin(info, "stream").add(0);
+    send(info, "stream");
+  }
+  if (!flowing_) {
+    rate_from_ = 0;
+    return;
+  }
+  if (rate_from_ == 0) {
+    rate_from_ = last_;
+    counted_ = 0;
+  } else if (last_ - rate_from_ >= 1) {
+    begin(info, "rate").add(counted_ / (last_ - rate_from_));
+    send(info, "rate");
+    rate_from_ = last_;
+    counted_ = 0;
+  }
+}
+
+}  // namespace gait::pd

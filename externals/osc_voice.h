@@ -1,0 +1,63 @@
+// One performer of [gait.osc]: what came of him, brought to the model's body, waits here until it
+// is due and leaves as messages.
+#pragma once
+
+#include <memory>
+#include <string>
+#include <vector>
+
+#include "gait/osc/jitter_buffer.h"
+#include "gait/osc/live_body.h"
+#include "pd/outlet.h"
+#include "pd/perf.h"
+
+namespace gait::pd {
+
+// What messages set, for all performers.
+struct OscSettings {
+  double yaw = 0;     // degrees
+  double jitter = 0;  // ms
+  double hold = 0.5;  // s
+  double smooth = 0;  // Hz
+};
+
+class OscVoice {
+ public:
+  // `number`: which performer, -1: the only one.
+  OscVoice(std::shared_ptr<const Model> model, int number, const OscSettings& settings);
+
+  void set(const OscSettings& settings);
+  void calibrate(CalibrationPose pose) { body_.calibrate(pose); }
+  void reset();
+
+  // From the gatherer, on Pd's thread; sends nothing.
+  void take(const osc::CapturedFrame& frame) noexcept;
+  // Sends what is due. `now`: seconds on the clock of arrivals.
+  void release(double now, Outlet& in, Outlet& pose, Outlet& info, Perf& perf);
+  // A tick of the clock: whether the stream flows, at what rate.
+  void report(double now, Outlet& info);
+  // Values for nobody: of another count than the model's.
+  int unfit() const { return unfit_; }
+
+ private:
+  Outlet& begin(Outlet& outlet, const char* selector);
+  void send(Outlet& outlet, const char* selector);
+  void send_masks(Outlet& in);
+  void send_sender(Outlet& info);
+
+  std::shared_ptr<const Model> model_;
+  int number_;
+  double hold_ = 0.5;
+  osc::LiveBody body_;
+  osc::JitterBuffer waiting_;
+  std::vector<float> packed_;
+  std::size_t inputs_, pose_;
+  bool changed_sender_ = false, flowing_ = false, said_flowing_ = false;
+  std::uint64_t sender_ = 0;
+  std::uint32_t stream_ = 0;
+  osc::MocapForm form_ = osc::MocapForm::none;
+  double last_ = 0, rate_from_ = 0;
+  int counted_ = 0, unfit_ = 0;
+};
+
+}  // namespace gait::pd
