@@ -115,6 +115,20 @@ TEST(StateStatistics, of_all_less_a_fold_are_those_of_the_rest) {
   }
 }
 
+// Of many values, where a state had no frame: Eigen's product of no columns divides by their
+// number.
+TEST(StateStatistics, of_a_state_without_frames_are_none) {
+  std::vector<ObservedSequence> sequences(1);
+  sequences[0].x = Eigen::MatrixXd::Random(216, 6);
+  sequences[0].y = Eigen::MatrixXd::Random(162, 6);
+  std::vector<Alignment> alignments(1);
+  for (int frame = 0; frame < 6; ++frame) alignments[0].occupancies.push_back({frame, 0, 1.0});
+  const auto statistics = gather(sequences, alignments, {0}, 2, 0, 1);
+  EXPECT_EQ(statistics[0].count, 6);
+  EXPECT_EQ(statistics[1].count, 0);
+  EXPECT_EQ(statistics[1].products.norm(), 0);
+}
+
 TEST(InParallel, does_each_piece_once_for_any_number_of_threads) {
   for (const int threads : {0, 1, 2, 5, 100}) {
     std::vector<std::atomic<int>> done(37);

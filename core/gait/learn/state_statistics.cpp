@@ -81,6 +81,7 @@ std::vector<StateStatistics> gather(const std::vector<ObservedSequence>& sequenc
           mine.style_sums.col(sequences[i].style) += root * z;
         }
       }
+    if (frames == 0) return;  // Eigen divides by the number of columns of a large product
     mine.products.selfadjointView<Eigen::Lower>().rankUpdate(weighted);
     mine.products.triangularView<Eigen::StrictlyUpper>() = mine.products.transpose();
   });
