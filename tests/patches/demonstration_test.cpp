@@ -4,11 +4,14 @@
 
 #include <cmath>
 #include <cstdio>
+#include <random>
 
 #include "patches/viterbi_patch.h"
 
 namespace gait::testing {
 namespace {
+
+constexpr double settled = 20;  // frames: differences and the trajectory's past are whole
 
 // A learner and, on one cord, what plays what it has learnt. `score` is for [qlist].
 struct Demonstrated : Patch {
@@ -81,6 +84,58 @@ TEST(Demonstration, of_a_sound_is_played_by_the_hand_alone) {
     std::printf("parameter %d: off by %.3f of its deviation\n", value, error / deviation);
     EXPECT_LT(error, 0.15 * deviation);  // 0.08 and 0.05 were seen
   }
+}
+
+// T14 §5: the map as a filter that knows what a walk is.
+TEST(Demonstration, of_a_clean_skeleton_cleans_a_noisy_one) {
+  GAIT_NEEDS_PD();
+  constexpr float trouble = 0.1f;  // rad, deviation of the noise on each value and frame
+  std::mt19937_64 random(11);
+  std::normal_distribution<float> noise(0, trouble);
+  const auto poses = [](const std::string& style, int take) {
+    const Sequence streams = streams_of(make_walk(plan_of(style, take, 8)), *demo()->body);
+    Eigen::MatrixXf both(streams.inputs.rows() + streams.outputs.rows(), streams.inputs.cols());
+    both << streams.inputs.cast<float>(), streams.outputs.cast<float>();
+    return both;
+  };
+  const auto disturbed = [&](const Eigen::MatrixXf& clean) {
+    return Eigen::MatrixXf(clean.unaryExpr([&](float value) { return value + noise(random); }));
+  };
+  const double wait = 1000 / demo()->frame_rate;
+  std::string score;
+  double milliseconds = 1000;
+  for (const char* style : {"proud", "sad"})
+    for (int take = 1; take <= 2; ++take) {
+      const Eigen::MatrixXf clean = poses(style, take), noisy = disturbed(clean);
+      score += std::string("0 teach record ") + style + ";\n";
+      for (int frame = 0; frame < clean.cols(); ++frame)
+        score += line(wait, "sounds out", clean.col(frame)) + line(0, "teach in", noisy.col(frame));
+      score += "0 teach stop;\n";
+      milliseconds += wait * static_cast<double>(clean.cols());
+    }
+  score += "100 teach train;\n100 seen rate " + std::to_string(demo()->frame_rate) + ";\n";
+  const Eigen::MatrixXf clean = poses("sad", 55), noisy = disturbed(clean);
+  for (int frame = 0; frame < clean.cols(); ++frame)
+    score += line(wait, "seen in", noisy.col(frame));
+  milliseconds += wait * static_cast<double>(clean.cols());
+  Demonstrated patch(static_cast<int>(clean.rows()), static_cast<int>(clean.rows()), score);
+  patch.quit_after(milliseconds - 500);
+  const PdRun run = run_pd(patch);
+  ASSERT_EQ(run.exit_code, 0) << run.log;
+  EXPECT_EQ(run.errors(), std::vector<std::string>()) << run.log;
+  const auto out = run.numbers("played", "out");
+  ASSERT_EQ(out.size(), static_cast<std::size_t>(clean.cols()));
+  double before = 0, after = 0, count = 0;
+  for (auto frame = static_cast<int>(settled); frame < clean.cols(); ++frame)
+    for (int value = 0; value < clean.rows(); ++value, ++count) {
+      const double truth = clean(value, frame);
+      before += std::pow(noisy(value, frame) - truth, 2);
+      after += std::pow(
+          out[static_cast<std::size_t>(frame)][static_cast<std::size_t>(value)] - truth, 2);
+    }
+  before = std::sqrt(before / count), after = std::sqrt(after / count);
+  std::printf("noise %.3f rad, left of it %.3f rad\n", before, after);
+  EXPECT_LT(after, 0.5 * before);
 }
 
 // Recorded as walked, then learnt in the background while blocks of sound are counted.
