@@ -7,14 +7,13 @@
 #include "gait/corpus/demo_model.h"
 #include "gait/error.h"
 #include "gait/judge/walk_takes.h"
-#include "gait/model/body_pose.h"
+#include "gait/model/body_motion.h"
 #include "gait/model/model_file.h"
-#include "gait/motion/body_frame.h"
-#include "gait/motion/bvh.h"
 #include "objects.h"
 #include "pd/models.h"
 #include "pd/ticker.h"
 #include "pd/worker.h"
+#include "pose_values.h"
 #include "take_recorder.h"
 
 namespace gait::pd {
@@ -43,20 +42,14 @@ std::string label_of(const std::filesystem::path& file) {
   return name;
 }
 
-RecordedTake take_of_clip(const std::string& path, const Body& body) {
-  Clip clip = clip_from_bvh(read_bvh(path));
-  clip = in_metres_y_up(clip, guess_body_frame(clip, find_roles(clip.skeleton)));
-  constexpr double usual_cycle = 1.1;  // seconds: the heading's window
-  const BodyPoses poses =
-      body_poses(clip, body, match_joints(body, clip.skeleton, path), usual_cycle);
-  std::vector<int> joints;
-  for (std::size_t i = 0; i < body.references.size(); ++i) joints.push_back(static_cast<int>(i));
-  RecordedTake take{label_of(path), static_cast<int>(3 * joints.size()), 0, {}, {}};
-  std::vector<double> values(3 * joints.size());
-  for (int frame = 0; frame < poses.frames(); ++frame) {
-    pose_vector<double>(poses.pose(frame), body.references, joints, values);
-    take.seconds.push_back(frame / clip.frame_rate);
-    for (const double value : values) take.values.push_back(static_cast<float>(value));
+RecordedTake take_of_clip(const std::string& path, const Model& model) {
+  const BodyMotion motion = read_motion(path, model);
+  PoseValues values(*model.body);
+  RecordedTake take{label_of(path), 3 * motion.joints, 0, {}, {}};
+  for (int frame = 0; frame < motion.frames(); ++frame) {
+    take.seconds.push_back(frame / motion.frame_rate);
+    const std::span<const float> pose = values.of(motion.pose(frame));
+    take.values.insert(take.values.end(), pose.begin(), pose.end());
   }
   return take;
 }
@@ -146,7 +139,7 @@ class Train final : public ModelUser {
           try {
             if (path.ends_with(".bvh") || path.ends_with(".BVH")) {
               if (inputs > 0) throw Error("expected a file of takes: this box was made with -in");
-              read->takes.push_back(take_of_clip(path, *base->model->body));
+              read->takes.push_back(take_of_clip(path, *base->model));
             } else {
               read->takes = read_takes(path);
             }

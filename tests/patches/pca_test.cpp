@@ -2,19 +2,13 @@
 #include <gtest/gtest.h>
 
 #include "gait/model/body_pose.h"
-#include "gait/model/model_file.h"
 #include "gait/play/speed_walker.h"
 #include "gait/play/style_walker.h"
+#include "patches/demo_model.h"
 #include "patches/patch.h"
 
 namespace gait::testing {
 namespace {
-
-std::shared_ptr<const Model> demo() {
-  static const auto model =
-      std::make_shared<const Model>(read_model(GAIT_PD_FOLDER "/gait-demo.gait"));
-  return model;
-}
 
 std::vector<float> vectors_of(std::span<const Eigen::Quaternionf> pose) {
   std::vector<Eigen::Quaternionf> references;

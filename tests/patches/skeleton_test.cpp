@@ -36,14 +36,14 @@ TEST(SkeletonObject, shows_a_whole_body_as_the_core_does) {
   std::vector<std::string> messages{"place 1 0.2 3", "heading 0.3", "leg 1.1", "smooth 5",
                                     "report Head 0"};
   const int frames = 60;
-  for (int i = 0; i < frames; ++i) messages.push_back(message("pose", column(sad().pose, i)));
+  for (int i = 0; i < frames; ++i) messages.push_back(message_of("pose", column(sad().pose, i)));
   patch.at_start(messages, patch.skeleton);
   patch.quit_after(10);
   const PdRun run = run_pd(patch);
   ASSERT_EQ(run.exit_code, 0) << run.log;
   EXPECT_EQ(run.errors(), std::vector<std::string>()) << run.log;
 
-  BodyStage stage(demo_model());
+  BodyStage stage(demo());
   stage.set_place({1, 0.2f, 3});
   stage.set_heading_rate(0.3f);
   stage.set_leg_length(1.1f);
@@ -54,7 +54,7 @@ TEST(SkeletonObject, shows_a_whole_body_as_the_core_does) {
   ASSERT_EQ(poses.size(), positions.size());
   std::vector<std::string> contacts, heard;
   std::vector<double> strides;
-  const auto head = static_cast<std::size_t>(demo_model()->body->skeleton.find("Head"));
+  const auto head = static_cast<std::size_t>(demo()->body->skeleton.find("Head"));
   const auto lines = run.recorded("info");
   std::vector<std::string> heads;
   for (const std::string& line : lines) {
@@ -96,11 +96,11 @@ TEST(SkeletonObject, puts_outputs_and_the_inputs_they_came_from_together) {
     patch.at_start({"delay 2", "root keep", "stream 1"}, patch.skeleton);
     for (int i = 0; i < frames; ++i) {
       const std::vector<float> root{0.1f * static_cast<float>(i), 0.9f, 0, 0.01f};
-      patch.at_start(
-          {message("root", root), message(cold, column(cold == "in" ? sad().in : sad().pose, i))},
-          patch.skeleton, 1);
+      patch.at_start({message_of("root", root),
+                      message_of(cold, column(cold == "in" ? sad().in : sad().pose, i))},
+                     patch.skeleton, 1);
       if (i >= delay)
-        patch.at_start({message("out", column(sad().out, i - delay))}, patch.skeleton);
+        patch.at_start({message_of("out", column(sad().out, i - delay))}, patch.skeleton);
     }
     patch.quit_after(10);
     const PdRun run = run_pd(patch);
@@ -119,11 +119,11 @@ TEST(SkeletonObject, stays_where_it_is_while_it_does_not_walk_or_walks_on_the_sp
   GAIT_NEEDS_PD();
   SkeletonPatch patch;
   std::vector<std::string> messages;
-  for (int i = 0; i < 30; ++i) messages.push_back(message("pose", column(sad().pose, i)));
+  for (int i = 0; i < 30; ++i) messages.push_back(message_of("pose", column(sad().pose, i)));
   messages.push_back("walking 0");
-  for (int i = 30; i < 60; ++i) messages.push_back(message("pose", column(sad().pose, i)));
+  for (int i = 30; i < 60; ++i) messages.push_back(message_of("pose", column(sad().pose, i)));
   messages.insert(messages.end(), {"walking 1", "root still", "reset"});
-  for (int i = 0; i < 30; ++i) messages.push_back(message("pose", column(sad().pose, i)));
+  for (int i = 0; i < 30; ++i) messages.push_back(message_of("pose", column(sad().pose, i)));
   patch.at_start(messages, patch.skeleton);
   patch.quit_after(10);
   const PdRun run = run_pd(patch);
@@ -163,7 +163,7 @@ TEST(SkeletonObject, refuses_what_it_cannot_use_with_one_line_each) {
   patch.at_start(bad, patch.skeleton);
   patch.at_start({"in 1 2 3"}, patch.skeleton, 1);
   patch.at_start({"jump"}, patch.skeleton, 1);
-  patch.at_start({"pose 1 2 3", message("pose", column(sad().pose, 0))}, patch.skeleton);
+  patch.at_start({"pose 1 2 3", message_of("pose", column(sad().pose, 0))}, patch.skeleton);
   patch.quit_after(10);
   const PdRun run = run_pd(patch);
   ASSERT_EQ(run.exit_code, 0) << run.log;
@@ -188,9 +188,9 @@ TEST(SkeletonObject, allocates_nothing_at_frame_rate) {
   const int watch = patch.object("watch"), skeleton = patch.object("gait.skeleton");
   const auto frames = [&](int from, int to) {
     for (int i = from; i < to; ++i) {
-      patch.at_start({"root 0 1 0 0", message("in", column(sad().in, i))}, skeleton, 1);
-      patch.at_start({message("out", column(sad().out, i))}, skeleton);
-      patch.at_start({message("pose", column(sad().pose, i))}, skeleton);
+      patch.at_start({"root 0 1 0 0", message_of("in", column(sad().in, i))}, skeleton, 1);
+      patch.at_start({message_of("out", column(sad().out, i))}, skeleton);
+      patch.at_start({message_of("pose", column(sad().pose, i))}, skeleton);
     }
   };
   patch.at_start({"report Head 3", "smooth 3"}, skeleton);

@@ -9,7 +9,7 @@ namespace gait::testing {
 namespace {
 
 const std::vector<Told>& sad_walk() {
-  static const std::vector<Told> told = told_gaussians(demo_model(), walked_streams("sad").in);
+  static const std::vector<Told> told = told_gaussians(demo(), walked_streams("sad").in);
   return told;
 }
 
@@ -31,7 +31,7 @@ PdRun run_without_errors(const Patch& patch) {
 }
 
 int style_number(const std::string& name) {
-  const auto& styles = demo_model()->styles;
+  const auto& styles = demo()->styles;
   return static_cast<int>(std::ranges::find(styles, name) - styles.begin());
 }
 
@@ -48,7 +48,7 @@ TEST(SynthObject, sends_the_cores_frames_for_gaussians) {
   patch.quit_after(10);
   const PdRun run = run_without_errors(patch);
 
-  Synthesiser synthesiser(demo_model(), {12, future});
+  Synthesiser synthesiser(demo(), {12, future});
   const auto outputs = run.numbers("out", "out");
   ASSERT_EQ(outputs.size(), 51u - future);
   std::size_t made = 0;
@@ -78,18 +78,18 @@ TEST(SynthObject, walks_alone_as_the_core_does) {
   patch.quit_after(10);
   const PdRun run = run_without_errors(patch);
 
-  StepWalker walker(demo_model());
+  StepWalker walker(demo());
   walker.set_style(style_number("sad"));
   walker.durations().set_cadence(2);
   walker.durations().set_scale(1.1f);
-  walker.streams().set_scale(walker.stream_of(demo_model()->body->skeleton.find("Head")), 2);
+  walker.streams().set_scale(walker.stream_of(demo()->body->skeleton.find("Head")), 2);
   walker.queue(1);
   const auto poses = run.numbers("out", "pose");
   ASSERT_EQ(poses.size(), 63u);
   std::vector<std::string> steps;
   for (std::size_t frame = 0; frame < poses.size(); ++frame) {
     walker.advance();
-    const Body& body = *demo_model()->body;
+    const Body& body = *demo()->body;
     for (std::size_t i = 0; i < body.input_joints.size(); ++i)
       for (std::size_t axis = 0; axis < 3; ++axis)
         EXPECT_NEAR(poses[frame][3 * static_cast<std::size_t>(body.input_joints[i]) + axis],
@@ -101,8 +101,7 @@ TEST(SynthObject, walks_alone_as_the_core_does) {
     EXPECT_NEAR(run.numbers("info", "phase")[frame][0], walker.phase(), 1e-6);
     EXPECT_NEAR(run.numbers("info", "cadence")[frame][0], walker.cadence(), 1e-6);
     if (walker.entered())
-      steps.push_back("step " +
-                      demo_model()->labels[static_cast<std::size_t>(*walker.entered())].name);
+      steps.push_back("step " + demo()->labels[static_cast<std::size_t>(*walker.entered())].name);
   }
   std::vector<std::string> said;
   for (const std::string& line : run.recorded("info"))
@@ -152,7 +151,7 @@ TEST(SynthObject, goes_on_by_its_own_clock_when_the_stream_is_lost_and_comes_bac
     EXPECT_EQ(std::ranges::count(lines, "stream 0"), 1);
     // `place` is for this object alone: the next one would take it for a place in the world.
     for (const std::string& line : lines) EXPECT_FALSE(line.starts_with("place")) << line;
-    Synthesiser fed(demo_model());
+    Synthesiser fed(demo());
     for (std::size_t i = 50; i < 110; ++i) fed.push(sad_walk()[i].means, sad_walk()[i].variances);
     expect_near(outputs.back(), fed.outputs(), 1e-4);
   }
@@ -208,15 +207,15 @@ TEST(SynthObject, keeps_what_it_is_told_before_there_is_a_model) {
   ASSERT_EQ(run.exit_code, 0) << run.log;
   EXPECT_NE(run.log.find("gait.synth: waiting for other"), std::string::npos) << run.log;
   EXPECT_NE(run.log.find("gait.synth: joint: no joint 'Nose'"), std::string::npos) << run.log;
-  StepWalker walker(demo_model());
+  StepWalker walker(demo());
   walker.set_style(style_number("sad"));
   walker.queue(1);
   walker.advance();
   const auto poses = run.numbers("out", "pose");
   ASSERT_EQ(poses.size(), 1u);
-  const int head = demo_model()->body->skeleton.find("Head");
+  const int head = demo()->body->skeleton.find("Head");
   EXPECT_NEAR(poses[0][static_cast<std::size_t>(3 * head)], 0.1, 1e-6);
-  const int first = demo_model()->body->output_joints[0];
+  const int first = demo()->body->output_joints[0];
   EXPECT_NEAR(poses[0][static_cast<std::size_t>(3 * first)], walker.outputs()[0], 1e-6);
   EXPECT_EQ(run.numbers("info", "perf").back()[3], 2);  // dropped
   const auto info = run.recorded("info");
@@ -283,7 +282,7 @@ TEST(SynthObject, refuses_what_it_cannot_use_with_one_line_each) {
   said("gait.synth: onlost: expected walk, hold or stop, got 'run'");
   said("gait.synth: body: expected out or pose, got 'both'");
   said("gait.synth: jump: no such message, nor a label of gait-demo, which has right, left");
-  Synthesiser synthesiser(demo_model());
+  Synthesiser synthesiser(demo());
   synthesiser.push(sad_walk()[0].means, sad_walk()[0].variances);
   ASSERT_EQ(run.numbers("out", "out").size(), 1u);
   expect_near(run.numbers("out", "out")[0], synthesiser.outputs());

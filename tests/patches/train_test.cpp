@@ -6,6 +6,7 @@
 #include <numbers>
 #include <random>
 
+#include "gait/corpus/corpus.h"
 #include "gait/judge/takes_file.h"
 #include "gait/model/model_file.h"
 #include "patches/patch.h"
@@ -162,6 +163,26 @@ TEST(TrainObject, learns_walks_from_poses) {
   ASSERT_EQ(done.size(), 1u) << run.log;
   EXPECT_GE(done[0][0], 0.9);
   EXPECT_EQ(std::ranges::count(run.recorded("info"), "ready mine"), 1);
+}
+
+TEST(TrainObject, takes_clips_for_takes) {
+  GAIT_NEEDS_PD();
+  WalkPlan plan{.style = corpus_style("sad")};
+  const CorpusWalk walk = make_walk(plan);
+  const auto path = write_corpus(::testing::TempDir() + "gait_clips", {&walk, 1}).front();
+  Patch patch;
+  patch.object("gait.model gait-demo -blocking");
+  const int train = patch.object("gait.train mine -blocking");
+  patch.record(train, 1, "info");
+  patch.at_start({"add " + path.string()}, train);
+  patch.quit_after(10);
+  const PdRun run = run_pd(patch);
+  ASSERT_EQ(run.exit_code, 0) << run.log;
+  EXPECT_EQ(run.errors(), std::vector<std::string>()) << run.log;
+  const auto info = run.recorded("info");
+  ASSERT_EQ(info.size(), 1u) << run.log;
+  ASSERT_TRUE(info[0].starts_with("take 0 sad ")) << info[0];
+  EXPECT_NEAR(std::stod(info[0].substr(11)), (walk.clip.frames() - 1) / walk.clip.frame_rate, 1e-3);
 }
 
 TEST(TrainObject, refuses_what_it_cannot_use) {

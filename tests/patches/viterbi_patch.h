@@ -9,19 +9,13 @@
 #include <utility>
 #include <vector>
 
-#include "gait/model/model_file.h"
 #include "gait/play/covariance_map.h"
 #include "gait/play/recogniser.h"
+#include "patches/demo_model.h"
 #include "patches/patch.h"
 #include "play/few_walks.h"
 
 namespace gait::testing {
-
-inline std::shared_ptr<const Model> demo() {
-  static const auto model =
-      std::make_shared<const Model>(read_model(GAIT_PD_FOLDER "/gait-demo.gait"));
-  return model;
-}
 
 inline CorpusWalk unseen_walk(const std::string& style, int cycles = 5) {
   return make_walk(plan_of(style, 55, cycles));
@@ -31,13 +25,8 @@ inline Eigen::MatrixXf inputs_of(const CorpusWalk& walk) {
 }
 
 inline std::string message_of(const std::string& selector, const Eigen::VectorXf& values) {
-  std::string text = selector;
-  char number[32];
-  for (const float value : values) {
-    std::snprintf(number, sizeof number, " %.9g", static_cast<double>(value));
-    text += number;
-  }
-  return text;
+  return message_of(selector,
+                    std::span<const float>(values.data(), static_cast<std::size_t>(values.size())));
 }
 
 // A patch with the model there at once, and the two objects on one cord.

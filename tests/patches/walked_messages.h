@@ -1,32 +1,15 @@
 // A built-in walk as the messages that objects send each other, made by the core.
 #pragma once
 
-#include <cstdio>
 #include <memory>
 #include <span>
 #include <string>
 #include <vector>
 
-#include "gait/model/model_file.h"
+#include "patches/demo_model.h"
 #include "play/told_gaussians.h"
 
 namespace gait::testing {
-
-inline std::shared_ptr<const Model> demo_model() {
-  static const auto model =
-      std::make_shared<const Model>(read_model(GAIT_PD_FOLDER "/gait-demo.gait"));
-  return model;
-}
-
-inline std::string message(const std::string& selector, std::span<const float> values) {
-  std::string text = selector;
-  char number[32];
-  for (const float value : values) {
-    std::snprintf(number, sizeof number, " %.9g", static_cast<double>(value));
-    text += number;
-  }
-  return text;
-}
 
 // Rows of a frame's streams.
 struct WalkedStreams {
@@ -39,7 +22,7 @@ inline std::span<const float> column(const Eigen::MatrixXf& values, int frame) {
 }
 
 inline WalkedStreams walked_streams(const char* style, int take = 9) {
-  const Body& body = *demo_model()->body;
+  const Body& body = *demo()->body;
   const Sequence streams = streams_of(make_walk(plan_of(style, take)), body);
   WalkedStreams result;
   result.in = streams.inputs.cast<float>();
@@ -58,13 +41,13 @@ inline std::string gauss_message(const Told& told, int lag = 0) {
   std::vector<float> values{static_cast<float>(lag), static_cast<float>(told.means.size() / 3)};
   values.insert(values.end(), told.means.begin(), told.means.end());
   values.insert(values.end(), told.variances.begin(), told.variances.end());
-  return message("gauss", values);
+  return message_of("gauss", values);
 }
 
 inline std::string place_message(const Told& told) {
   std::vector<float> values{told.phase, told.cadence};
   values.insert(values.end(), told.styles.begin(), told.styles.end());
-  return message("place", values);
+  return message_of("place", values);
 }
 
 inline void expect_near(const std::vector<double>& sent, std::span<const float> computed,
