@@ -15,6 +15,7 @@
 #include "number_words.h"
 #include "output_file.h"
 #include "style_words.h"
+#include "walk_output.h"
 
 namespace gait::tool {
 
@@ -99,15 +100,7 @@ Command synth_command(CLI::App& program) {
   app->add_option("--seed", options->seed, "The same seed gives the same walk (1)")
       ->check(seed_check())
       ->type_name("N");
-  app->add_option("--turn", options->turn, "Turn on the way, above 0 to the left")
-      ->check(within(-180.0, 180.0))
-      ->type_name("DEG_PER_S");
-  app->add_option("--rate", options->rate, "Frames per second to write (the model's)")
-      ->check(within(5.0, 240.0))
-      ->type_name("HZ");
-  app->add_option("-o,--output", options->output, "BVH file to write, in metres")
-      ->required()
-      ->type_name("BVH");
+  add_walk_output(*app, options->turn, options->rate, options->output);
   app->footer(
       "The walk is under way when the file begins, at a right contact, and goes where its own "
       "feet\n"

@@ -14,6 +14,7 @@
 #include "number_range.h"
 #include "output_file.h"
 #include "speed_words.h"
+#include "walk_output.h"
 
 namespace gait::tool {
 
@@ -78,15 +79,7 @@ Command walk_command(CLI::App& program) {
                   "Cadence: feet (neither speed nor feet lie), fitted (as the subject's), inman")
       ->check(CLI::IsMember({"fitted", "inman", "feet"}).description(""))
       ->type_name("fitted|inman|feet");
-  app->add_option("--turn", options->turn, "Turn on the way, above 0 to the left")
-      ->check(within(-180.0, 180.0))
-      ->type_name("DEG_PER_S");
-  app->add_option("--rate", options->rate, "Frames per second to write (the model's)")
-      ->check(within(5.0, 240.0))
-      ->type_name("HZ");
-  app->add_option("-o,--output", options->output, "BVH file to write, in metres")
-      ->required()
-      ->type_name("BVH");
+  add_walk_output(*app, options->turn, options->rate, options->output);
   app->footer(
       "Speeds from 0 to 10 km/h are walked; others are clamped to that, with a word.\n\n"
       "Examples:\n"
