@@ -14,6 +14,12 @@ namespace {
 constexpr double snap_seconds =
     0.55e-3;                  // half a millisecond, what whole-millisecond times miss by
 constexpr double pull = 0.1;  // share of the difference by which a pose moves the clock
+// A sender keeps the model's rate when its mean interval is so near the period; it has left it when
+// it is so far away.
+constexpr double same_rate = 0.02, other_rate = 0.05;
+constexpr double same_rate_tolerance = 0.3;  // of a period
+constexpr int intervals_to_know = 8;
+constexpr double interval_gain = 0.02;
 
 bool all_finite(std::span<const Eigen::Quaternionf> rotations,
                 std::span<const float> plain) noexcept {
@@ -33,11 +39,15 @@ FrameClock::FrameClock(double frame_rate, int rotations, int plain, double longe
   if (rotations < 0 || plain < 0)
     throw Error("frame clock: expected entry counts of zero or more, found " +
                 std::to_string(rotations) + " rotations and " + std::to_string(plain) + " values");
-  tolerance_ = std::min(snap_seconds, 0.1 * period_);
+  tolerance_ = usual_tolerance();
   for (Pose* pose : {&before_, &latest_}) {
     pose->rotations.assign(rotations, Eigen::Quaternionf::Identity());
     pose->plain.assign(plain, 0.0f);
   }
+}
+
+double FrameClock::usual_tolerance() const noexcept {
+  return std::min(snap_seconds, 0.1 * period_);
 }
 
 FrameClock::Arrival FrameClock::push(double time, std::span<const Eigen::Quaternionf> rotations,
@@ -48,7 +58,7 @@ FrameClock::Arrival FrameClock::push(double time, std::span<const Eigen::Quatern
 
   const double passed = time - latest_.time;
   if (poses_ == 0 || std::abs(passed) > longest_gap_) {
-    poses_ = 0;
+    begin_run();
     keep(time, rotations, plain);
     tick_ = time;
     started_ = true;
@@ -59,8 +69,25 @@ FrameClock::Arrival FrameClock::push(double time, std::span<const Eigen::Quatern
   // What was due and not pulled is lost.
   if (const double late = latest_.time + tolerance_ - tick_; late >= 0)
     tick_ += period_ * (std::floor(late / period_) + 1);
+  measure(passed);
   keep(time, rotations, plain);
   return Arrival::accepted;
+}
+
+void FrameClock::measure(double passed) noexcept {
+  if (intervals_ < intervals_to_know) {
+    ++intervals_;
+    interval_ += (passed - interval_) / intervals_;
+  } else {  // a frame that was lost, or a burst, weighs no more than a little
+    interval_ += interval_gain * (std::clamp(passed, 0.5 * interval_, 1.5 * interval_) - interval_);
+  }
+  if (intervals_ < intervals_to_know) return;
+  const double off = std::abs(interval_ - period_);
+  const double usual = usual_tolerance();
+  if (off < same_rate * period_)
+    tolerance_ = std::max(usual, same_rate_tolerance * period_);
+  else if (off > other_rate * period_)
+    tolerance_ = usual;
 }
 
 void FrameClock::keep(double time, std::span<const Eigen::Quaternionf> rotations,
@@ -96,8 +123,15 @@ bool FrameClock::next(std::span<Eigen::Quaternionf> rotations, std::span<float> 
   return true;
 }
 
-void FrameClock::reset() noexcept {
+void FrameClock::begin_run() noexcept {
   poses_ = 0;
+  intervals_ = 0;
+  interval_ = 0;
+  tolerance_ = usual_tolerance();
+}
+
+void FrameClock::reset() noexcept {
+  begin_run();
   started_ = false;
 }
 

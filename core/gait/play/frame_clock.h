@@ -6,8 +6,10 @@
 //
 // A pose that comes within 0.55 ms of a tick is that tick's frame, untouched, and pulls the clock a
 // tenth of the difference its way. Thus a sender at the model's own rate passes one for one however
-// its times are rounded (0.0333333 s, whole milliseconds, 29.97 fps), and never drifts away.
-// Times in seconds.
+// its times are rounded (0.0333333 s, whole milliseconds, 29.97 fps), and never drifts away. Once a
+// sender has been seen to keep the model's rate, a pose within three tenths of a period of a tick
+// is that tick's: times of arrival tremble, and a pose that comes a little early must not wait for
+// the next one. Times in seconds.
 #pragma once
 
 #include <Eigen/Geometry>
@@ -56,7 +58,13 @@ class FrameClock {
   void keep(double time, std::span<const Eigen::Quaternionf> rotations,
             std::span<const float> plain) noexcept;
 
+  void measure(double passed) noexcept;
+  void begin_run() noexcept;
+  double usual_tolerance() const noexcept;
+
   double period_, longest_gap_, tolerance_;
+  double interval_ = 0;  // between poses, as it was lately
+  int intervals_ = 0;    // how many that is of
   Pose before_, latest_;
   int poses_ = 0;         // how many of before_ and latest_ hold a pose of this run: 0, 1 or 2
   double tick_ = 0;       // time of the next frame
