@@ -55,7 +55,7 @@ const Eigen::MatrixXd& corpus_rows() {
 // Against the singular values of the centred rows.
 void expect_as_by_svd(const Eigen::MatrixXd& rows, const ComponentChoice& choice) {
   Eigen::MatrixXd centred = rows.rowwise() - rows.colwise().mean();
-  const Eigen::BDCSVD<Eigen::MatrixXd> svd(centred, Eigen::ComputeThinU | Eigen::ComputeThinV);
+  const Eigen::JacobiSVD<Eigen::MatrixXd> svd(centred, Eigen::ComputeThinU | Eigen::ComputeThinV);
   Eigen::MatrixXd given = rows;
   const PrincipalComponents found = principal_components(given, choice);
   const Eigen::Index kept = found.components.cols();

@@ -81,7 +81,7 @@ TEST(BodyFrame, any_unit_and_upright_axis_comes_out_in_metres_with_y_up) {
   for (const char* unit : {"m", "cm", "mm", "in", "ft", "dm", "cmu"})
     for (const Eigen::Vector3d& up : kUps) {
       const double metres = metres_per_unit_named(unit);
-      const auto turn = Eigen::Quaterniond::FromTwoVectors(Eigen::Vector3d::UnitY(), up);
+      const auto turn = turn_between(Eigen::Vector3d::UnitY(), up);
       const Clip file = seen_from(clip, turn, 1 / metres);
       const BodyFrame frame = guess(file);
       EXPECT_EQ(frame.metres_per_unit, metres) << unit;

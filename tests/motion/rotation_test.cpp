@@ -75,8 +75,23 @@ TEST(Rotation, the_chordal_mean_of_two_lies_half_way_whatever_their_signs) {
   const std::vector<Eigen::Quaterniond> same{a, b};
   const std::vector<Eigen::Quaterniond> flipped{a, Eigen::Quaterniond(-b.coeffs())};
   const auto half_way = slerp(a, b, 0.5);
-  EXPECT_LT(angle_between(chordal_mean<double>(same), half_way), 1e-7);
-  EXPECT_LT(angle_between(chordal_mean<double>(flipped), half_way), 1e-7);
+  EXPECT_LT(angle_between(chordal_mean(same), half_way), 1e-7);
+  EXPECT_LT(angle_between(chordal_mean(flipped), half_way), 1e-7);
+}
+
+TEST(Rotation, a_turn_between_two_directions_is_the_shortest_one_whatever_their_lengths) {
+  std::mt19937 random(6);
+  for (int i = 0; i < 100; ++i) {
+    const Eigen::Vector3d from = random_vector(random, 0.1 + i), to = random_vector(random, 2);
+    const auto turn = turn_between(from, to);
+    EXPECT_LT((turn * from.normalized() - to.normalized()).norm(), 1e-12);
+    EXPECT_NEAR(angle_between(turn, Eigen::Quaterniond::Identity()),
+                std::acos(from.normalized().dot(to.normalized())), 1e-7);
+  }
+  const Eigen::Vector3d way(1, 2, -3);
+  const auto back = turn_between(way, -2 * way);
+  EXPECT_LT((back * way + way).norm(), 1e-12);
+  EXPECT_NEAR(back.norm(), 1, 1e-12);
 }
 
 }  // namespace

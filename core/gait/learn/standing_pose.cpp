@@ -82,7 +82,7 @@ void set_upright(const Skeleton& skeleton, const Leg& leg, int hips, Pose& pose)
   for (int joint = leg.foot; joint != leg.thigh; joint = skeleton.joints[joint].parent)
     to_ankle += in_world(skeleton, pose, skeleton.joints[joint].parent, hips) *
                 skeleton.joints[joint].offset;
-  const auto turn = Eigen::Quaterniond::FromTwoVectors(to_ankle, -Eigen::Vector3d::UnitY());
+  const auto turn = turn_between(to_ankle, -Eigen::Vector3d::UnitY());
   const Eigen::Quaterniond above =
       in_world(skeleton, pose, skeleton.joints[leg.thigh].parent, hips);
   pose[leg.thigh] = above.conjugate() * turn * above * pose[leg.thigh];
@@ -111,7 +111,7 @@ class MeanCycle {
     Pose rotations;
     for (int k = static_cast<int>(from * frames_); k < until * frames_; ++k)
       rotations.push_back(rotation_of(pose(k % frames_)));
-    return chordal_mean<double>(rotations);
+    return chordal_mean(rotations);
   }
 
  private:

@@ -124,7 +124,7 @@ Body body_of_subjects(const std::vector<Walk>& walks, const RoleTable& roles) {
       for (std::size_t joint = 0; joint < seen.size(); ++joint)
         seen[joint].push_back(poses.pose(frame)[joint]);
   }
-  for (const auto& rotations : seen) body.references.push_back(chordal_mean<double>(rotations));
+  for (const auto& rotations : seen) body.references.push_back(chordal_mean(rotations));
   return body;
 }
 

@@ -113,7 +113,7 @@ std::vector<Eigen::Quaterniond> references_of(const std::vector<Seen>& seen, int
     for (const Seen& one : seen)
       for (int frame = 0; frame < one.poses.frames(); ++frame)
         of_joint.push_back(one.poses.pose(frame)[joint]);
-    references.push_back(chordal_mean<double>(of_joint));
+    references.push_back(chordal_mean(of_joint));
   }
   return references;
 }

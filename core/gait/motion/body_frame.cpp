@@ -9,6 +9,7 @@
 
 #include "gait/error.h"
 #include "gait/motion/kinematics.h"
+#include "gait/motion/rotation.h"
 
 namespace gait {
 namespace {
@@ -73,8 +74,7 @@ Measured measure(const Clip& clip, const JointRoles& roles) {
 Eigen::Quaterniond onto_y(int axis, double sign) {
   if (axis == 1 && sign < 0)  // half a turn, for which no axis is the nearest: X
     return Eigen::Quaterniond(0, 1, 0, 0);
-  return Eigen::Quaterniond::FromTwoVectors(sign * Eigen::Vector3d::Unit(axis),
-                                            Eigen::Vector3d::UnitY());
+  return turn_between(sign * Eigen::Vector3d::Unit(axis), Eigen::Vector3d::UnitY());
 }
 
 std::string number_text(double value) {

@@ -90,7 +90,7 @@ std::vector<Eigen::Quaterniond> calibration_pose(const Skeleton& skeleton, const
     if (!wanted) continue;
     const Eigen::Vector3d limb = limb_of(skeleton, roles, joint);
     if (limb.norm() < shortest_bone) continue;
-    world[joint] = Eigen::Quaterniond::FromTwoVectors(world[joint] * limb, *wanted) * world[joint];
+    world[joint] = turn_between(world[joint] * limb, *wanted) * world[joint];
   }
   return world;
 }

@@ -34,8 +34,7 @@ std::vector<Eigen::Quaterniond> usual_pose(const Clip& clip, const JointRoles& r
                                 : clip.pose(frame)[joint]);
   }
   std::vector<Eigen::Quaterniond> mean;
-  for (const auto& rotations : seen)
-    mean.push_back(chordal_mean<double>(std::span<const Eigen::Quaterniond>(rotations)));
+  for (const auto& rotations : seen) mean.push_back(chordal_mean(rotations));
   return mean;
 }
 

@@ -2,6 +2,8 @@
 
 #include <Eigen/SVD>
 
+#include "gait/motion/rotation.h"
+
 namespace gait {
 
 namespace {
@@ -33,7 +35,7 @@ std::vector<BonePair> bones_of(const Skeleton& from, const Skeleton& to, int joi
 
 Eigen::Quaterniond turn_of(const std::vector<BonePair>& bones) {
   if (bones.empty()) return Eigen::Quaterniond::Identity();
-  if (bones.size() == 1) return Eigen::Quaterniond::FromTwoVectors(bones[0].to, bones[0].from);
+  if (bones.size() == 1) return turn_between(bones[0].to, bones[0].from);
   Eigen::Matrix3d sum = Eigen::Matrix3d::Zero();
   for (const BonePair& bone : bones) sum += bone.from * bone.to.transpose();
   const Eigen::JacobiSVD<Eigen::Matrix3d> svd(sum, Eigen::ComputeFullU | Eigen::ComputeFullV);

@@ -4,7 +4,6 @@
 #pragma once
 
 #include <Eigen/Core>
-#include <Eigen/Eigenvalues>
 #include <Eigen/Geometry>
 #include <cmath>
 #include <span>
@@ -86,14 +85,11 @@ SwingTwist<Scalar> swing_twist(const Quaternion<Scalar>& rotation,
 
 // Chordal mean: the unit quaternion that maximises the sum of squared scalar products with all of
 // `rotations`, the largest eigenvector of sum q q^T; w >= 0. The identity for an empty span.
-template <typename Scalar>
-Quaternion<Scalar> chordal_mean(std::span<const Quaternion<Scalar>> rotations) {
-  if (rotations.empty()) return Quaternion<Scalar>::Identity();
-  Eigen::Matrix<Scalar, 4, 4> sum = Eigen::Matrix<Scalar, 4, 4>::Zero();
-  for (const auto& q : rotations) sum += q.coeffs() * q.coeffs().transpose();
-  const Eigen::SelfAdjointEigenSolver<Eigen::Matrix<Scalar, 4, 4>> solver(sum);
-  return short_way(Quaternion<Scalar>(Eigen::Matrix<Scalar, 4, 1>(solver.eigenvectors().col(3))));
-}
+Eigen::Quaterniond chordal_mean(std::span<const Eigen::Quaterniond> rotations);
+
+// The shortest turn that brings the direction `from` to the direction `to`; about any axis across
+// when they are opposite. Neither may be zero.
+Eigen::Quaterniond turn_between(const Eigen::Vector3d& from, const Eigen::Vector3d& to) noexcept;
 
 // Rotation about the vertical (Y) by `angle` radians: turns +Z towards +X.
 template <typename Scalar>

@@ -1,5 +1,7 @@
 #include "gait/motion/turns_from_places.h"
 
+#include "gait/motion/rotation.h"
+
 namespace gait {
 
 namespace {
@@ -37,7 +39,7 @@ void swing(HumanoidPose& pose, Bone bone, Bone end, Bone above, const Vector3d& 
   Vector3d way;
   if (!pose.turned[index_of(above)] || !between(pose, bone, end, way)) return;
   const Quaterniond& carried = pose.turns[index_of(above)];
-  set(pose, bone, Quaterniond::FromTwoVectors(carried * at_rest, way) * carried);
+  set(pose, bone, turn_between(carried * at_rest, way) * carried);
 }
 
 }  // namespace

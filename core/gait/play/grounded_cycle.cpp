@@ -252,8 +252,8 @@ void GroundedCycle::reach(Placed& pose, const Leg& leg, const Eigen::Vector3d& a
   const double cosine = (wanted - thigh.squaredNorm() - shank.squaredNorm()) / (2 * lengths);
   const double bend = std::acos(std::clamp(cosine, -1.0, 1.0));
   turn(leg.shank, Eigen::Quaterniond(Eigen::AngleAxisd(bend - bent, axis)));
-  turn(leg.thigh, Eigen::Quaterniond::FromTwoVectors(pose.places[leg.foot] - pose.places[leg.thigh],
-                                                     ankle - pose.places[leg.thigh]));
+  turn(leg.thigh, turn_between(pose.places[leg.foot] - pose.places[leg.thigh],
+                               ankle - pose.places[leg.thigh]));
   pose.local[leg.foot] = pose.world[parent_of(leg.foot)].conjugate() * foot;
   place(pose);
 }
