@@ -68,7 +68,7 @@ class Osc final : public ModelUser, osc::FrameSink {
     else if (selector == "dump")
       dump();
     else if (selector == "perf")
-      perf().report(info_);
+      report_perf();
     else
       arguments.fail("no such message");
   }
@@ -275,7 +275,7 @@ class Osc final : public ModelUser, osc::FrameSink {
     gatherer_->end_old(now, *this);
     // What is sent may come back here as any message: nothing below relies on what is above.
     for (std::size_t i = 0; i < voices_.size(); ++i) {
-      voices_[i]->release(now, in_, pose_, info_, perf());
+      voices_[i]->release(now, in_, pose_, info_, perf(), latency_);
       voices_[i]->report(now, info_);
     }
     if (now - reported_ >= 1) report(now);
@@ -296,6 +296,11 @@ class Osc final : public ModelUser, osc::FrameSink {
              "model, or too many at once";
     });
     info_.add(static_cast<double>(dropped)).send("dropped");
+  }
+
+  void report_perf() {
+    latency_.report(info_);
+    perf().report(info_);
   }
 
   void reset() {
@@ -352,6 +357,7 @@ class Osc final : public ModelUser, osc::FrameSink {
   std::vector<osc::BodySender> senders_;  // one for each form that is sent
   std::array<std::shared_ptr<const osc::Destination>, most_receivers> to_;
   std::vector<float> given_, root_;
+  Latency latency_;
   double reported_ = 0;
   std::uint64_t dropped_ = 0;
   int lookups_ = 0;

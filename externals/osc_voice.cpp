@@ -4,6 +4,8 @@
 #include <cstdio>
 #include <numbers>
 
+#include "gait/osc/receiver.h"
+
 namespace gait::pd {
 
 namespace {
@@ -16,11 +18,12 @@ OscVoice::OscVoice(std::shared_ptr<const Model> model, int number, const OscSett
     : model_(std::move(model)),
       number_(number),
       body_(model_),
-      waiting_(static_cast<int>(head) + values_of(model_->inputs) +
-               (model_->body ? 3 * model_->body->skeleton.size() : 0)),
+      waiting_(static_cast<int>(head) + static_cast<int>(model_->inputs.size()) +
+               values_of(model_->inputs) + (model_->body ? 3 * model_->body->skeleton.size() : 0)),
+      there_(model_->inputs.size(), true),
       inputs_(static_cast<std::size_t>(values_of(model_->inputs))),
       pose_(model_->body ? 3 * model_->body->skeleton.joints.size() : 0) {
-  packed_.resize(head + inputs_ + pose_);
+  packed_.resize(head + there_.size() + inputs_ + pose_);
   set(settings);
 }
 
@@ -52,9 +55,11 @@ void OscVoice::take(const osc::CapturedFrame& frame) noexcept {
   packed_[0] = live.posed ? 1 : 0;
   std::copy_n(live.hips.data(), 3, packed_.begin() + 1);
   packed_[4] = live.heading;
-  std::copy(live.inputs.begin(), live.inputs.end(), packed_.begin() + head);
-  std::copy(live.pose.begin(), live.pose.end(),
-            packed_.begin() + static_cast<std::ptrdiff_t>(head + inputs_));
+  auto at = packed_.begin() + head;
+  for (std::size_t i = 0; i < there_.size(); ++i)
+    *at++ = body_.there(static_cast<int>(i)) ? 1.0f : 0.0f;
+  at = std::copy(live.inputs.begin(), live.inputs.end(), at);
+  std::copy(live.pose.begin(), live.pose.end(), at);
   waiting_.push(frame.time, packed_);
   last_ = frame.time;
   flowing_ = true;
@@ -70,11 +75,11 @@ void OscVoice::send(Outlet& outlet, const char* selector) {
   outlet.send(number_ >= 0 ? "list" : selector);
 }
 
-void OscVoice::send_masks(Outlet& in) {
-  for (std::size_t i = 0; i < model_->inputs.size(); ++i) {
-    bool there = true;
-    if (!body_.changed(static_cast<int>(i), there)) continue;
-    begin(in, "mask").add(model_->inputs[i].name).add(there ? 1 : 0);
+void OscVoice::send_masks(Outlet& in, std::span<const float> there) {
+  for (std::size_t i = 0; i < there.size(); ++i) {
+    if ((there[i] != 0) == there_[i]) continue;
+    there_[i] = !there_[i];
+    begin(in, "mask").add(model_->inputs[i].name).add(there_[i] ? 1 : 0);
     send(in, "mask");
   }
 }
@@ -90,9 +95,11 @@ void OscVoice::send_sender(Outlet& info) {
   send(info, "form");
 }
 
-void OscVoice::release(double now, Outlet& in, Outlet& pose, Outlet& info, Perf& perf) {
+void OscVoice::release(double now, Outlet& in, Outlet& pose, Outlet& info, Perf& perf,
+                       Latency& latency) {
   for (auto frame = waiting_.pop(now); !frame.empty(); frame = waiting_.pop(now)) {
     const Perf::Frame measured(perf);
+    latency.add(osc::Receiver::now() - waiting_.arrival());
     if (changed_sender_) {
       changed_sender_ = false;
       send_sender(info);
@@ -106,11 +113,11 @@ void OscVoice::release(double now, Outlet& in, Outlet& pose, Outlet& info, Perf&
     if (frame[0] != 0 && pose_ > 0) {
       begin(pose, "root").add(frame.subspan(1, 4));
       send(pose, "root");
-      begin(pose, "pose").add(frame.subspan(head + inputs_));
+      begin(pose, "pose").add(frame.subspan(head + there_.size() + inputs_));
       send(pose, "pose");
     }
-    send_masks(in);
-    begin(in, "in").add(frame.subspan(head, inputs_));
+    send_masks(in, frame.subspan(head, there_.size()));
+    begin(in, "in").add(frame.subspan(head + there_.size(), inputs_));
     send(in, "in");
   }
 }

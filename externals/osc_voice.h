@@ -3,11 +3,13 @@
 #pragma once
 
 #include <memory>
+#include <span>
 #include <string>
 #include <vector>
 
 #include "gait/osc/jitter_buffer.h"
 #include "gait/osc/live_body.h"
+#include "latency.h"
 #include "pd/outlet.h"
 #include "pd/perf.h"
 
@@ -32,8 +34,9 @@ class OscVoice {
 
   // From the gatherer, on Pd's thread; sends nothing.
   void take(const osc::CapturedFrame& frame) noexcept;
-  // Sends what is due. `now`: seconds on the clock of arrivals.
-  void release(double now, Outlet& in, Outlet& pose, Outlet& info, Perf& perf);
+  // Sends what is due. `now`: seconds on the clock of arrivals. `latency`: from a frame's arrival
+  // to its leaving.
+  void release(double now, Outlet& in, Outlet& pose, Outlet& info, Perf& perf, Latency& latency);
   // A tick of the clock: whether the stream flows, at what rate.
   void report(double now, Outlet& info);
   // Values for nobody: of another count than the model's.
@@ -42,7 +45,7 @@ class OscVoice {
  private:
   Outlet& begin(Outlet& outlet, const char* selector);
   void send(Outlet& outlet, const char* selector);
-  void send_masks(Outlet& in);
+  void send_masks(Outlet& in, std::span<const float> there);
   void send_sender(Outlet& info);
 
   std::shared_ptr<const Model> model_;
@@ -51,6 +54,7 @@ class OscVoice {
   osc::LiveBody body_;
   osc::JitterBuffer waiting_;
   std::vector<float> packed_;
+  std::vector<bool> there_;  // inputs, as was told last; at first everybody takes them to be there
   std::size_t inputs_, pose_;
   bool changed_sender_ = false, flowing_ = false, said_flowing_ = false;
   std::uint64_t sender_ = 0;

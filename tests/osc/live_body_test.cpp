@@ -11,8 +11,10 @@
 #include "gait/model/body_pose.h"
 #include "gait/motion/kinematics.h"
 #include "gait/osc/humanoid_sender.h"
+#include "gait/osc/rig_sender.h"
 #include "gait/play/reconstructor.h"
 #include "osc/captured.h"
+#include "osc/strange_sender.h"
 
 namespace gait::testing {
 namespace {
@@ -26,62 +28,6 @@ std::shared_ptr<const Model> demo() {
 
 Clip walk(const std::string& style) {
   return make_walk({.style = corpus_style(style), .cycles = 6, .seed = 99, .take = 3}).clip;
-}
-
-// A sender's own rig: every joint's frame is turned against the body's by some rotation that nobody
-// is told, the whole stage by a yaw, and X is mirrored, as in Unity. Names are Unity's.
-class StrangeSender {
- public:
-  explicit StrangeSender(unsigned seed) {
-    std::mt19937 random(seed);
-    std::normal_distribution<double> normal;
-    for (Eigen::Quaterniond& turn : rest_)
-      turn = Eigen::Quaterniond(normal(random), normal(random), normal(random), normal(random))
-                 .normalized();
-    stage_ = about_vertical(normal(random) * 2);
-  }
-  // Packets of a body that has so turned since the T-pose.
-  void say(const HumanoidPose& pose, double time, Listened& to) {
-    osc::PacketSequence packets;
-    std::vector<float> numbers;
-    std::array<Eigen::Quaterniond, humanoid_bones> world;
-    for (int bone = 0; bone < humanoid_bones; ++bone) {
-      if (!pose.turned[bone]) continue;
-      world[bone] = stage_ * pose.turns[bone] * rest_[bone];
-      const int above = pose.turned_above(bone);
-      const Eigen::Quaterniond local =
-          above < 0 ? world[bone] : world[above].conjugate() * world[bone];
-      packets.add("/VMC/Ext/Bone/Pos", "sfffffff", {std::string(bone_name(bone))});
-      const Eigen::Vector3d place = mirrored(Eigen::Vector3d(
-          above < 0 ? Eigen::Vector3d(stage_ * pose.places[bone] + Eigen::Vector3d(1, 0, 2))
-                    : Eigen::Vector3d(world[above].conjugate() *
-                                      (stage_ * (pose.places[bone] - pose.places[above])))));
-      const Eigen::Quaterniond unity = mirrored(local);
-      for (const double number :
-           {place.x(), place.y(), place.z(), unity.x(), unity.y(), unity.z(), unity.w()})
-        numbers.push_back(static_cast<float>(number));
-    }
-    packets.add("/VMC/Ext/OK", "i");
-    numbers.push_back(1);
-    packets.set(numbers);
-    to.hear(packets.packets(), time);
-  }
-
- private:
-  std::array<Eigen::Quaterniond, humanoid_bones> rest_;
-  Eigen::Quaterniond stage_;
-};
-
-std::vector<HumanoidPose> poses_of(const Clip& clip, const HumanoidBody& body) {
-  const WorldPoses world = world_poses(clip);
-  const auto joints = static_cast<std::size_t>(clip.skeleton.size());
-  std::vector<HumanoidPose> poses;
-  for (int frame = 0; frame < clip.frames(); ++frame) {
-    const std::size_t at = joints * static_cast<std::size_t>(frame);
-    body.read({world.rotations.data() + at, joints}, {world.positions.data() + at, joints},
-              poses.emplace_back());
-  }
-  return poses;
 }
 
 struct Decided {
@@ -119,12 +65,7 @@ Decided from_stream(const Clip& clip, CalibrationPose stand, double wobble = 0) 
   StrangeSender sender(7);
   Listened listened;
   osc::LiveBody live(demo());
-  HumanoidPose standing = body.calibration(stand);
-  for (int bone = 0; bone < humanoid_bones; ++bone) {  // of any build
-    standing.placed.set(bone);
-    standing.places[bone] = usual_offset(bone);
-    if (bone_parent(bone) >= 0) standing.places[bone] += standing.places[bone_parent(bone)];
-  }
+  HumanoidPose standing = standing_pose(body, stand);
   std::mt19937 random(3);
   std::normal_distribution<double> normal;
   for (Eigen::Quaterniond& turn : standing.turns)
@@ -132,16 +73,16 @@ Decided from_stream(const Clip& clip, CalibrationPose stand, double wobble = 0) 
                wobble * Eigen::Vector3d(normal(random), normal(random), normal(random))) *
            turn;
   double time = 0;
-  for (int i = 0; i < 10; ++i) sender.say(standing, time += 1 / 30.0, listened);
+  for (int i = 0; i < 10; ++i) listened.hear(sender.packets(standing).packets(), time += 1 / 30.0);
   for (const auto& frame : listened.frames) {
     if (&frame == &listened.frames[5]) live.calibrate(stand);
     EXPECT_TRUE(live.take(frame));
   }
   EXPECT_TRUE(live.calibrated());
   std::vector<std::vector<float>> inputs;
-  for (const HumanoidPose& pose : poses_of(clip, body)) {
+  for (const HumanoidPose& pose : humanoid_poses(clip, body)) {
     listened.frames.clear();
-    sender.say(pose, time += 1 / 30.0, listened);
+    listened.hear(sender.packets(pose).packets(), time += 1 / 30.0);
     EXPECT_EQ(listened.frames.size(), 1u);
     EXPECT_TRUE(live.take(listened.frames.at(0)));
     inputs.emplace_back(live.frame().inputs.begin(), live.frame().inputs.end());
@@ -192,11 +133,12 @@ TEST(LiveBody, bones_that_stop_are_held_then_missing_and_taken_in_again) {
   live.set_hold(0.5);
   Listened listened;
   StrangeSender sender(2);
-  std::vector<HumanoidPose> poses = poses_of(walk("neutral"), body);
+  std::vector<HumanoidPose> poses = humanoid_poses(walk("neutral"), body);
   int input = -1;
   for (std::size_t i = 0; i < demo()->inputs.size(); ++i)
     if (demo()->inputs[i].name == "LeftForeArm") input = static_cast<int>(i);
   ASSERT_GE(input, 0);
+  std::vector<bool> there(demo()->inputs.size(), true);
   std::vector<std::string> news;
   std::vector<float> held;
   for (int frame = 0; frame < 90; ++frame) {
@@ -204,13 +146,13 @@ TEST(LiveBody, bones_that_stop_are_held_then_missing_and_taken_in_again) {
     const bool lost = frame >= 30 && frame < 60;
     if (lost) pose.turned.reset(index_of(Bone::left_lower_arm));
     listened.frames.clear();
-    sender.say(pose, frame / 30.0, listened);
+    listened.hear(sender.packets(pose).packets(), frame / 30.0);
     ASSERT_TRUE(live.take(listened.frames.at(0)));
-    for (int i = 0; i < static_cast<int>(demo()->inputs.size()); ++i) {
-      bool there = true;
-      if (live.changed(i, there))
-        news.push_back(demo()->inputs[i].name + (there ? " back " : " gone ") +
-                       std::to_string(frame));
+    for (std::size_t i = 0; i < demo()->inputs.size(); ++i) {
+      if (live.there(static_cast<int>(i)) == there[i]) continue;
+      there[i] = !there[i];
+      news.push_back(demo()->inputs[i].name + (there[i] ? " back " : " gone ") +
+                     std::to_string(frame));
     }
   }
   EXPECT_EQ(news, (std::vector<std::string>{"LeftForeArm gone 45", "LeftForeArm back 60"}));
@@ -265,6 +207,34 @@ TEST(LiveBody, a_camera_that_sees_places_gives_the_same_directions) {
       const Eigen::Vector3d is = pose.world().turns[index_of(bone)] * rest;
       EXPECT_LT(std::acos(std::min(1.0, (away * was).normalized().dot(is))), 1e-3);
     }
+  }
+}
+
+// The project's own form: the rig by its own names, as `gait stream --form gait` sends it.
+TEST(LiveBody, a_rig_told_by_its_own_names_is_the_walk_itself) {
+  const Clip clip = walk("drunk");
+  const Decided file = from_file(clip);
+  osc::RigSender sender(clip.skeleton);
+  Listened listened;
+  listened.hear(sender.rig(), 0);
+  osc::LiveBody live(demo());
+  const int hips = body_roles(*demo()->body).hips;
+  for (int frame = 0; frame < clip.frames(); ++frame) {
+    listened.frames.clear();
+    sender.pack(clip.pose(frame), clip.translation(frame), frame);
+    listened.hear(sender.packets(), frame / 30.0);
+    ASSERT_EQ(listened.frames.size(), 1u);
+    ASSERT_TRUE(live.take(listened.frames[0]));
+    EXPECT_TRUE(live.frame().posed);
+    EXPECT_LT(
+        (live.frame().hips.cast<double>() - clip.translation(frame)[static_cast<std::size_t>(hips)])
+            .norm(),
+        1e-4);
+    const auto& inputs = file.inputs[static_cast<std::size_t>(frame)];
+    for (std::size_t i = 0; i < inputs.size(); ++i)
+      ASSERT_NEAR(live.frame().inputs[i], inputs[i], 1e-4) << frame << " " << i;
+    for (std::size_t i = 0; i < demo()->inputs.size(); ++i)
+      EXPECT_TRUE(live.there(static_cast<int>(i)));
   }
 }
 

@@ -1,5 +1,6 @@
 // The examples, played without a window and without waiting: that they sound, and how.
 #include <gtest/gtest.h>
+#include <unistd.h>
 
 #include <algorithm>
 #include <array>
@@ -95,8 +96,9 @@ struct Told {
 };
 
 // Plays an example: its names are made known as ex-NAME, its [dac~] is heard from `from` to `to`
-// (seconds).
-Sound play(const std::string& example, const std::vector<Told>& messages, double from, double to) {
+// (seconds). `live`: in real time.
+Sound play(const std::string& example, const std::vector<Told>& messages, double from, double to,
+           bool live = false) {
   std::string folder = ::testing::TempDir() + "gait_example_XXXXXX";
   EXPECT_NE(mkdtemp(folder.data()), nullptr);
   for (const auto& entry : fs::directory_iterator(GAIT_SOURCE "/examples")) {
@@ -135,7 +137,9 @@ Sound play(const std::string& example, const std::vector<Told>& messages, double
       later(1000 * to + 50, "write -wave -bytes 4 " + folder + "/heard.wav heard-left heard-right");
   patch.connect(write, 0, patch.object("soundfiler"));
   patch.quit_after(1000 * to + 100);
-  const PdRun run = run_pd(patch);
+  RunOptions options;
+  if (live) options.meanwhile = [](const PdRun&) {};
+  const PdRun run = run_pd(patch, options);
   Sound sound;
   sound.log = run.log;
   sound.errors = run.errors();
@@ -160,6 +164,21 @@ TEST(Examples, sound_when_they_walk_and_are_silent_before) {
     EXPECT_LT(play(example, {{50, "walk-in 1"}}, 1, 3).peak(), 1e-6)
         << example << " without a level";
   }
+}
+
+TEST(Examples, live_osc_sounds_when_it_hears_a_walk_over_the_network) {
+  GAIT_NEEDS_PD();
+  if (!fs::exists(GAIT_PD_FOLDER "/gait.osc.pd_linux")) GTEST_SKIP() << "built without liblo";
+  const std::string port = std::to_string(20000 + getpid() % 20000);
+  expect_sound(
+      play("live-osc", {{20, "port-in " + port}, {50, "rehearse-in 1"}, {50, "level-in 1"}}, 1.5, 5,
+           true),
+      "live-osc");
+  EXPECT_LT(play("live-osc", {{20, "port-in " + port}, {50, "listen-in 1"}, {50, "level-in 1"}},
+                 0.5, 1.5, true)
+                .peak(),
+            1e-6)
+      << "nobody walks";
 }
 
 TEST(Examples, perpetual_walker_keeps_and_recalls_presets) {

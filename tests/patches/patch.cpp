@@ -10,6 +10,7 @@
 #include <fstream>
 #include <regex>
 #include <sstream>
+#include <thread>
 
 namespace gait::testing {
 
@@ -104,13 +105,17 @@ PdRun run_pd(const Patch& patch, const RunOptions& options) {
       "XDG_STATE_HOME='" + (options.state.empty() ? run.folder : options.state) + "' ";
   const std::string command =
       "cd '" + run.folder + "' && " + home + state + std::string(GAIT_PD_PRELOAD) +
-      (options.watched ? "LD_PRELOAD=" GAIT_ALLOCATION_WATCH : "") +
-      " timeout 120 " GAIT_PD_PROGRAM " -nogui -noprefs -noaudio -nomidi -batch -r 48000 -stderr " +
-      library + " -open test.pd 2>&1";
+      (options.watched ? "LD_PRELOAD=" GAIT_ALLOCATION_WATCH : "") + " timeout " +
+      std::to_string(options.at_most) + " " GAIT_PD_PROGRAM +
+      " -nogui -noprefs -noaudio -nomidi -r 48000 -stderr " +
+      (options.meanwhile ? "-sleepgrain 0.5 " : "-batch ") + library + " -open test.pd 2>&1";
   FILE* pipe = popen(command.c_str(), "r");
+  std::thread world;
+  if (options.meanwhile) world = std::thread([&, seen = run] { options.meanwhile(seen); });
   std::array<char, 4096> piece;
   while (const std::size_t count = fread(piece.data(), 1, piece.size(), pipe))
     run.log.append(piece.data(), count);
+  if (world.joinable()) world.join();
   const int status = pclose(pipe);
   run.exit_code = WIFEXITED(status) ? WEXITSTATUS(status) : 128 + WTERMSIG(status);
   return run;
@@ -135,6 +140,29 @@ std::vector<std::vector<double>> PdRun::numbers(const std::string& name,
     for (double number; words >> number;) rows.back().push_back(number);
   }
   return rows;
+}
+
+bool PdRun::wait_for(const std::string& name, const std::string& beginning) const {
+  for (int i = 0; i < 500; ++i) {
+    for (const std::string& line : recorded(name))
+      if (line.starts_with(beginning)) return true;
+    std::this_thread::sleep_for(std::chrono::milliseconds(10));
+  }
+  return false;
+}
+
+double PdRun::megabytes() const {
+  namespace fs = std::filesystem;
+  for (const auto& process : fs::directory_iterator("/proc")) {
+    std::error_code unreadable;  // of others, or over by now
+    if (fs::read_symlink(process.path() / "cwd", unreadable) != folder) continue;
+    std::ifstream status(process.path() / "status");
+    std::string line;
+    if (!std::getline(status, line) || line != "Name:\tpd") continue;
+    while (std::getline(status, line))
+      if (line.starts_with("VmRSS:")) return std::stod(line.substr(6)) / 1000;
+  }
+  return 0;
 }
 
 std::vector<std::string> PdRun::errors() const {

@@ -1,7 +1,8 @@
-// Patches made by tests and run in Pd itself, without a window and without waiting for time to
-// pass.
+// Patches made by tests and run in Pd itself, without a window and, unless asked, without waiting
+// for time to pass.
 #pragma once
 
+#include <functional>
 #include <string>
 #include <vector>
 
@@ -52,6 +53,10 @@ struct PdRun {
   // The numbers of the lines with this selector.
   std::vector<std::vector<double>> numbers(const std::string& name,
                                            const std::string& selector) const;
+  // Waits until the record has a line that begins so; false when five seconds have passed.
+  bool wait_for(const std::string& name, const std::string& beginning) const;
+  // Memory that Pd has in use while it runs, in MB; 0 when it does not run.
+  double megabytes() const;
   // Lines of the log that mean a failure (pd-notes: they do not show in the exit code).
   std::vector<std::string> errors() const;
 };
@@ -67,6 +72,10 @@ struct RunOptions {
   std::string home{};    // Pd sees only what is installed there; empty: the library just built
   std::string state{};   // folder for what objects keep between sessions; empty: the run's own
   bool watched = false;  // what is allocated between [watch]'s 1 and 0 is counted
+  // Given: time passes in Pd as on stage, and this is what the world does meanwhile, on a thread of
+  // its own; Pd's console is not there yet.
+  std::function<void(const PdRun&)> meanwhile{};
+  double at_most = 120;  // seconds until Pd is ended from outside
 };
 PdRun run_pd(const Patch& patch, const RunOptions& options = {});
 

@@ -7,8 +7,10 @@ namespace gait::osc {
 
 namespace {
 
-// A second-order loop: how much of an arrival's lateness the even clock and its period take in.
-constexpr double place_gain = 0.08, period_gain = 0.004;
+// A frame was lost when the next one is later than most of a period, and later than it ever is.
+constexpr double hole = 0.65;      // of a period
+constexpr double scattered = 2.5;  // times the arrivals' standard deviation
+constexpr int arrivals_to_know = 8;
 constexpr double longest_gap = 0.5;  // seconds; after it the clock begins anew
 
 }  // namespace
@@ -16,25 +18,43 @@ constexpr double longest_gap = 0.5;  // seconds; after it the clock begins anew
 JitterBuffer::JitterBuffer(int values)
     : values_(values), frames_(static_cast<std::size_t>(values) * most_frames) {}
 
-void JitterBuffer::push(double time, std::span<const float> values) noexcept {
-  const double gap = time - last_;
-  if (arrivals_ == 0 || gap > longest_gap || gap < 0) {
-    arrivals_ = 1;
-    even_ = time;
-    period_ = 0;
-  } else if (arrivals_ < 9) {  // the mean of the first gaps
-    period_ += (gap - period_) / arrivals_;
-    ++arrivals_;
-    even_ = even_ + period_ + (time - even_ - period_) / arrivals_;
-  } else {
-    const double late = time - (even_ + period_);
-    // Frames that were lost leave a hole of whole periods.
-    const double lost = period_ > 0 ? std::floor(late / period_ + 0.25) : 0;
-    const double rest = late - std::max(0.0, lost) * period_;
-    even_ += period_ * (1 + std::max(0.0, lost)) + place_gain * rest;
-    period_ += period_gain * rest;
+double JitterBuffer::number_after(double time) const noexcept {
+  const double next = numbers_[latest_] + 1;
+  if (arrivals_ < arrivals_to_know || line_.period <= 0) return next;
+  const double late = time - line_.at(next);
+  if (std::abs(late) < std::max(hole * line_.period, scattered * line_.scatter)) return next;
+  // Whoever was taken for lost and was only late gives his number back.
+  return next + std::max(-1.0, std::round(late / line_.period));
+}
+
+// Least squares.
+void JitterBuffer::fit_line() noexcept {
+  double number = 0, time = 0, squares = 0, products = 0, errors = 0;
+  for (int i = 0; i < arrivals_; ++i) {
+    number += (numbers_[i] - number) / (i + 1);
+    time += (times_[i] - time) / (i + 1);
   }
-  last_ = time;
+  for (int i = 0; i < arrivals_; ++i) {
+    squares += (numbers_[i] - number) * (numbers_[i] - number);
+    products += (numbers_[i] - number) * (times_[i] - time);
+  }
+  line_ = {number, time, squares > 0 ? products / squares : 0, 0};
+  for (int i = 0; i < arrivals_; ++i) {
+    const double error = times_[i] - line_.at(numbers_[i]);
+    errors += error * error;
+  }
+  line_.scatter = std::sqrt(errors / arrivals_);
+}
+
+void JitterBuffer::push(double time, std::span<const float> values) noexcept {
+  const double gap = arrivals_ == 0 ? 0 : time - times_[latest_];
+  if (gap > longest_gap || gap < 0) arrivals_ = 0;
+  const double number = arrivals_ == 0 ? 0 : number_after(time);
+  latest_ = arrivals_ == 0 ? 0 : (latest_ + 1) % most_arrivals;
+  arrivals_ = std::min(arrivals_ + 1, most_arrivals);
+  numbers_[latest_] = number;
+  times_[latest_] = time;
+  fit_line();
   if (count_ == most_frames) {
     first_ = (first_ + 1) % most_frames;
     --count_;
@@ -42,7 +62,8 @@ void JitterBuffer::push(double time, std::span<const float> values) noexcept {
   const int at = (first_ + count_) % most_frames;
   const auto size = std::min(values.size(), static_cast<std::size_t>(values_));
   std::copy_n(values.begin(), size, frames_.begin() + static_cast<std::ptrdiff_t>(at) * values_);
-  due_[at] = delay_ > 0 ? even_ + delay_ : time;
+  due_[at] = delay_ > 0 ? line_.at(number) + delay_ : time;
+  arrived_[at] = time;
   ++count_;
 }
 
@@ -50,6 +71,7 @@ std::span<const float> JitterBuffer::pop(double now) noexcept {
   if (count_ == 0 || (delay_ > 0 && due_[first_] > now)) return {};
   const std::span<const float> frame(frames_.data() + static_cast<std::ptrdiff_t>(first_) * values_,
                                      static_cast<std::size_t>(values_));
+  arrival_ = arrived_[first_];
   first_ = (first_ + 1) % most_frames;
   --count_;
   return frame;

@@ -19,16 +19,30 @@ class JitterBuffer {
   void push(double time, std::span<const float> values) noexcept;
   // The oldest frame if it is due, empty otherwise; valid until the next call.
   std::span<const float> pop(double now) noexcept;
-  void reset() noexcept { count_ = 0, arrivals_ = 0; }
+  // When the frame that was popped last arrived.
+  double arrival() const noexcept { return arrival_; }
+  void reset() noexcept { count_ = 0, arrivals_ = 0; }  // of frames and of the sender's clock
   int waiting() const noexcept { return count_; }
 
  private:
   int values_;
   double delay_ = 0;
   std::vector<float> frames_;
-  double due_[most_frames] = {};
-  int first_ = 0, count_ = 0, arrivals_ = 0;
-  double even_ = 0, period_ = 0, last_ = 0;  // the sender's clock as it is seen through jitter
+  double due_[most_frames] = {}, arrived_[most_frames] = {}, arrival_ = 0;
+  int first_ = 0, count_ = 0;
+
+  // The sender's clock as it is seen through jitter: a line through the latest arrivals over their
+  // numbers, where frames that were lost have numbers too.
+  struct Line {
+    double number = 0, time = 0, period = 0, scatter = 0;  // a point on it, its slope, seconds
+    double at(double n) const noexcept { return time + period * (n - number); }
+  };
+  static constexpr int most_arrivals = 64;
+  double number_after(double time) const noexcept;
+  void fit_line() noexcept;
+  Line line_;
+  double numbers_[most_arrivals] = {}, times_[most_arrivals] = {};
+  int arrivals_ = 0, latest_ = 0;
 };
 
 }  // namespace gait::osc

@@ -37,7 +37,6 @@ LiveBody::LiveBody(std::shared_ptr<const Model> model)
     : model_(std::move(model)),
       filter_(joints_of(*model_)),
       heading_(model_->body ? model_->body->heading_window : 1),
-      told_(model_->inputs.size(), Told::not_yet),
       input_of_(model_->inputs.size(), -1),
       inputs_(static_cast<std::size_t>(values_of(model_->inputs)), 0) {
   if (!model_->body) return;
@@ -75,7 +74,6 @@ void LiveBody::reset() noexcept {
   std::fill(seen_.begin(), seen_.end(), never);
   std::fill(named_of_.begin(), named_of_.end(), -1);
   named_known_ = 0;
-  tell_all();
 }
 
 bool LiveBody::take(const CapturedFrame& captured) noexcept {
@@ -190,8 +188,6 @@ bool LiveBody::take_values(const CapturedFrame& captured) noexcept {
   if (count == inputs_.size() && (!model_->body || count != values_.size())) {
     std::copy(numbers.begin(), numbers.end(), inputs_.begin());
     frame_.posed = false;
-    for (Told& told : told_)
-      if (told == Told::missing) told = Told::not_yet;
     for (std::size_t i = 0; i < input_of_.size(); ++i)
       if (input_of_[i] >= 0) seen_[input_of_[i]] = captured.time;
     frame_.inputs = inputs_;
@@ -229,15 +225,9 @@ void LiveBody::finish(const CapturedFrame& captured) noexcept {
   frame_.pose = values_;
 }
 
-bool LiveBody::changed(int input, bool& there) noexcept {
+bool LiveBody::there(int input) const noexcept {
   const int joint = input_of_[input];
-  there = joint < 0 || frame_.time - seen_[joint] <= hold_;
-  const Told now = there ? Told::there : Told::missing;
-  if (told_[input] == now) return false;
-  // At first everybody takes an input to be there.
-  const bool news = told_[input] != Told::not_yet || !there;
-  told_[input] = now;
-  return news;
+  return joint < 0 || frame_.time - seen_[joint] <= hold_;
 }
 
 }  // namespace gait::osc

@@ -50,14 +50,11 @@ class LiveBody {
   bool take(const CapturedFrame& captured) noexcept;
   const LiveFrame& frame() const noexcept { return frame_; }
 
-  // Whether an input has become missing or come back since it was asked last. `input`: index into
-  // the model's inputs; `there` is then how it is now.
-  bool changed(int input, bool& there) noexcept;
-  // For all inputs to be told anew.
-  void tell_all() noexcept { told_.assign(told_.size(), Told::not_yet); }
+  // Whether an input is told, or held no longer than it may, as of the last frame. `input`: index
+  // into the model's inputs.
+  bool there(int input) const noexcept;
 
  private:
-  enum class Told : char { not_yet, there, missing };
   bool take_humanoid(const CapturedFrame& captured) noexcept;
   bool take_named(const CapturedFrame& captured) noexcept;
   bool take_values(const CapturedFrame& captured) noexcept;
@@ -86,7 +83,6 @@ class LiveBody {
   std::vector<double> seen_;               // per joint of the body
   std::vector<int> named_of_;              // per joint of the body: index among named ones, -1
   int named_known_ = 0;
-  std::vector<Told> told_;
   std::vector<int> input_of_;  // per input: its joint, -1: a plain stream
   std::vector<float> inputs_, values_;
   LiveFrame frame_;
