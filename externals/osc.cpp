@@ -1,24 +1,22 @@
 // [gait.osc NAME -poly n]: live motion from suits, cameras and phones in, bodies to avatars out.
 #include <memory>
-#include <numbers>
 #include <optional>
 #include <string>
 #include <vector>
 
 #include "gait/error.h"
-#include "gait/osc/body_sender.h"
 #include "gait/osc/receiver.h"
 #include "objects.h"
+#include "osc_receivers.h"
 #include "osc_voice.h"
 #include "pd/models.h"
 #include "pd/ticker.h"
-#include "pd/worker.h"
 
 namespace gait::pd {
 
 namespace {
 
-constexpr int most_voices = 64, most_receivers = 16;
+constexpr int most_voices = 64;
 constexpr double poll_interval = 1;  // ms; arrivals wait so long and a scheduler's tick at most
 constexpr int most_events_a_poll = 4096;  // a flood must not stop the music
 
@@ -28,13 +26,14 @@ class Osc final : public ModelUser, osc::FrameSink {
       : ModelUser(box, is_name(arguments) ? arguments.text(0) : ""),
         in_(box),
         pose_(box),
-        info_(box) {
+        info_(box),
+        receivers_(box) {
     for (int at = is_name(arguments) ? 1 : 0; at < arguments.size(); ++at) {
       const std::string flag = arguments.symbol(at);
       if (flag == "-poly")
         count_ = arguments.integer(++at, 1, most_voices);
       else if (flag == "-blocking")
-        blocking_ = true;
+        receivers_.set_blocking();
       else
         arguments.fail_at(at, "-poly n or -blocking");
     }
@@ -50,7 +49,7 @@ class Osc final : public ModelUser, osc::FrameSink {
     else if (selector == "close")
       close();
     else if (selector == "to")
-      to(arguments);
+      receivers_.to(arguments);
     else if (selector == "calibrate")
       calibrate(arguments);
     else if (selector == "yaw")
@@ -83,17 +82,6 @@ class Osc final : public ModelUser, osc::FrameSink {
   }
 
  private:
-  struct Receiving {  // a program that takes what is sent
-    std::string host;
-    int port = 0;
-    osc::MocapForm form = osc::MocapForm::vmc;
-    std::shared_ptr<const osc::Destination> to;
-  };
-  struct Resolved {
-    std::shared_ptr<const osc::Destination> to;
-    std::string reason;
-  };
-
   static bool is_name(const Arguments& arguments) {
     return arguments.size() > 0 &&
            !(arguments.is_symbol(0) && arguments.symbol(0).starts_with('-'));
@@ -103,26 +91,12 @@ class Osc final : public ModelUser, osc::FrameSink {
     std::vector<std::unique_ptr<OscVoice>> voices;
     for (int i = 0; i < std::max(1, count_); ++i)
       voices.push_back(std::make_unique<OscVoice>(shared->model, count_ > 0 ? i : -1, settings_));
-    std::vector<osc::BodySender> senders = senders_for(shared);
+    receivers_.use(shared->model, std::max(1, count_));
     voices_ = std::move(voices);
-    senders_ = std::move(senders);
-    const int values = shared->model->body ? 3 * shared->model->body->skeleton.size() : 0;
-    given_.resize(static_cast<std::size_t>(values));
-    root_.assign(4 * static_cast<std::size_t>(std::max(1, count_)), 0);
     for (Outlet* outlet : {&in_, &pose_, &info_})
-      outlet->reserve(std::max(values, values_of(shared->model->inputs)) + 8);
+      outlet->reserve(std::max(receivers_.expected("pose"), values_of(shared->model->inputs)) + 8);
   }
   void say_ready() override { info_.add_text(model_name()).send("ready"); }
-
-  std::vector<osc::BodySender> senders_for(const SharedModel& shared) {
-    std::vector<osc::BodySender> senders;
-    if (!shared || !shared->model->body) return senders;
-    for (const Receiving& receiving : receiving_) {
-      const auto same = [&](const osc::BodySender& s) { return s.form() == receiving.form; };
-      if (std::ranges::none_of(senders, same)) senders.emplace_back(shared->model, receiving.form);
-    }
-    return senders;
-  }
 
   void listen(const Arguments& arguments) {
     arguments.expect_count(1, 3);
@@ -161,62 +135,6 @@ class Osc final : public ModelUser, osc::FrameSink {
     receiver_.reset();
   }
 
-  // A name is looked up on the worker: it may take seconds.
-  void to(const Arguments& arguments) {
-    arguments.expect_count(0, 3);
-    if (arguments.size() == 0) {  // to nobody
-      ++lookups_;
-      receiving_.clear();
-      senders_.clear();
-      return;
-    }
-    Receiving wanted;
-    wanted.host = arguments.text(0);
-    wanted.port = arguments.size() > 1 ? arguments.integer(1, 1, 65535) : 39539;
-    if (arguments.size() > 2) {
-      const auto form = osc::form_named(arguments.symbol(2));
-      if (!form || *form == osc::MocapForm::kinect)
-        arguments.fail_at(2, "vmc, natnet, neuron or gait");
-      wanted.form = *form;
-    }
-    for (const Receiving& known : receiving_)
-      if (known.host == wanted.host && known.port == wanted.port && known.form == wanted.form)
-        return;
-    if (static_cast<int>(receiving_.size()) == most_receivers)
-      arguments.fail("expected at most 16 receivers; `to` alone forgets them");
-    const auto result = std::make_shared<Resolved>();
-    Worker::get().run(
-        [result, wanted] {
-          try {
-            result->to = std::make_shared<const osc::Destination>(wanted.host, wanted.port);
-          } catch (const std::exception& error) {
-            result->reason = error.what();
-          }
-        },
-        [this, alive = std::weak_ptr<bool>(alive_), result, wanted, lookups = lookups_]() mutable {
-          if (alive.expired() || lookups != lookups_) return;
-          add(std::move(wanted), *result);
-        },
-        blocking_);
-  }
-
-  void add(Receiving wanted, const Resolved& resolved) {
-    std::string reason = resolved.reason;
-    if (resolved.to) {
-      wanted.to = resolved.to;
-      receiving_.push_back(std::move(wanted));
-      try {
-        senders_ = senders_for(model());
-        return;
-      } catch (const std::exception& error) {
-        receiving_.pop_back();
-        reason = error.what();
-      }
-    }
-    const std::string line = std::string(box().name()) + ": to: " + reason;
-    say_error(box(), line.c_str());
-  }
-
   void calibrate(const Arguments& arguments) {
     arguments.expect_count(1);
     const std::string pose = arguments.symbol(0);
@@ -233,28 +151,14 @@ class Osc final : public ModelUser, osc::FrameSink {
 
   void outgoing(const Arguments& arguments, int voice) {
     if (!ready_for_frame()) return;
-    const std::span<float> root(root_.data() + 4 * static_cast<std::ptrdiff_t>(voice), 4);
-    if (arguments.selector() == "root") {
-      if (!arguments.read(root)) wrong(arguments, 4);
-      return;
-    }
-    if (arguments.selector() != "pose") arguments.fail("no such message");
-    if (given_.empty() || !arguments.read(given_)) {
-      wrong(arguments, given_.size());
-      return;
-    }
+    if (arguments.selector() != "pose" && arguments.selector() != "root")
+      arguments.fail("no such message");
     const Perf::Frame measured(perf());
-    for (osc::BodySender& sender : senders_) {
-      std::size_t count = 0;
-      for (const Receiving& receiving : receiving_)
-        if (receiving.form == sender.form()) to_[count++] = receiving.to;
-      sender.send(root, given_, clock_gettimesince(0) / 1000, std::span(to_).first(count));
-    }
-  }
-  void wrong(const Arguments& arguments, std::size_t count) {
+    if (receivers_.take(arguments, voice)) return;
     slow_error().say([&] {
       return std::string(box().name()) + ": " + std::string(arguments.selector()) + ": expected " +
-             std::to_string(count) + " numbers, got " + std::to_string(arguments.size());
+             std::to_string(receivers_.expected(arguments.selector())) + " numbers, got " +
+             std::to_string(arguments.size());
     });
   }
 
@@ -308,23 +212,20 @@ class Osc final : public ModelUser, osc::FrameSink {
     if (gatherer_) gatherer_.emplace(std::max(1, count_));
   }
 
-  void print() const {
+  void print() {
     if (!receiver_) {
-      post("%s: listens to nobody, sends to %d", const_cast<Box&>(box_of()).name(),
-           static_cast<int>(receiving_.size()));
+      post("%s: listens to nobody, sends to %d", box().name(), receivers_.count());
       return;
     }
     const osc::Received received = receiver_->received();
     post(
         "%s: port %d%s, %.0f packets, %.0f messages, %.0f of no body, %.0f faulty, %.0f dropped; "
         "sends to %d",
-        const_cast<Box&>(box_of()).name(), receiver_->port(),
-        listening_.any ? " from anywhere" : "", static_cast<double>(received.packets),
-        static_cast<double>(received.messages), static_cast<double>(received.unknown),
-        static_cast<double>(received.faulty), static_cast<double>(received.dropped),
-        static_cast<int>(receiving_.size()));
+        box().name(), receiver_->port(), listening_.any ? " from anywhere" : "",
+        static_cast<double>(received.packets), static_cast<double>(received.messages),
+        static_cast<double>(received.unknown), static_cast<double>(received.faulty),
+        static_cast<double>(received.dropped), receivers_.count());
   }
-  const Box& box_of() const { return const_cast<Osc*>(this)->box(); }
 
   void dump() {
     if (receiver_) {
@@ -334,11 +235,7 @@ class Osc final : public ModelUser, osc::FrameSink {
         info_.add(std::string(osc::form_name(listening_.form)));
       info_.send("listen");
     }
-    for (const Receiving& receiving : receiving_)
-      info_.add(receiving.host)
-          .add(receiving.port)
-          .add(std::string(osc::form_name(receiving.form)))
-          .send("to");
+    receivers_.dump(info_);
     info_.add(settings_.yaw).send("yaw");
     info_.add(settings_.jitter).send("jitter");
     info_.add(settings_.hold).send("hold");
@@ -346,22 +243,16 @@ class Osc final : public ModelUser, osc::FrameSink {
   }
 
   Outlet in_, pose_, info_;
+  OscReceivers receivers_;
   int count_ = 0;  // performers told apart, 0: one without a number
-  bool blocking_ = false;
   OscSettings settings_;
   osc::ReceiverSettings listening_;
   std::unique_ptr<osc::Receiver> receiver_;
   std::optional<osc::FrameGatherer> gatherer_;
   std::vector<std::unique_ptr<OscVoice>> voices_;
-  std::vector<Receiving> receiving_;
-  std::vector<osc::BodySender> senders_;  // one for each form that is sent
-  std::array<std::shared_ptr<const osc::Destination>, most_receivers> to_;
-  std::vector<float> given_, root_;
   Latency latency_;
   double reported_ = 0;
   std::uint64_t dropped_ = 0;
-  int lookups_ = 0;
-  std::shared_ptr<bool> alive_ = std::make_shared<bool>(true);
   Ticker poll_{[this] { poll(); }};
 };
 

@@ -1,0 +1,111 @@
+#include "osc_receivers.h"
+
+#include <algorithm>
+#include <span>
+
+#include "gait/error.h"
+#include "pd/worker.h"
+
+namespace gait::pd {
+
+void OscReceivers::to(const Arguments& arguments) {
+  arguments.expect_count(0, 3);
+  if (arguments.size() == 0) {
+    ++lookups_;
+    receivers_.clear();
+    senders_.clear();
+    return;
+  }
+  Receiver wanted;
+  wanted.host = arguments.text(0);
+  wanted.port = arguments.size() > 1 ? arguments.integer(1, 1, 65535) : 39539;
+  if (arguments.size() > 2) {
+    const auto form = osc::form_named(arguments.symbol(2));
+    if (!form || *form == osc::MocapForm::kinect)
+      arguments.fail_at(2, "vmc, natnet, neuron or gait");
+    wanted.form = *form;
+  }
+  if (std::ranges::any_of(receivers_, [&](const Receiver& known) { return known.is(wanted); }))
+    return;
+  if (count() == most) arguments.fail("expected at most 16 receivers; `to` alone forgets them");
+  const auto found = std::make_shared<Found>();
+  Worker::get().run(
+      [found, wanted] {
+        try {
+          found->destination = std::make_shared<const osc::Destination>(wanted.host, wanted.port);
+        } catch (const std::exception& error) {
+          found->reason = error.what();
+        }
+      },
+      [this, alive = std::weak_ptr<bool>(alive_), found, wanted, lookups = lookups_]() mutable {
+        if (!alive.expired() && lookups == lookups_) add(std::move(wanted), *found);
+      },
+      blocking_);
+}
+
+void OscReceivers::add(Receiver receiver, const Found& found) {
+  std::string reason = found.reason;
+  // Asked for twice or too often before the first was found.
+  const bool known =
+      std::ranges::any_of(receivers_, [&](const Receiver& other) { return other.is(receiver); });
+  if (known || count() == most) return;
+  if (found.destination) {
+    receiver.destination = found.destination;
+    receivers_.push_back(std::move(receiver));
+    try {
+      senders_ = senders_for(model_);
+      return;
+    } catch (const std::exception& error) {
+      receivers_.pop_back();
+      reason = error.what();
+    }
+  }
+  const std::string line = std::string(box_.name()) + ": to: " + reason;
+  say_error(box_, line.c_str());
+}
+
+std::vector<osc::BodySender> OscReceivers::senders_for(
+    const std::shared_ptr<const Model>& model) const {
+  std::vector<osc::BodySender> senders;
+  if (!model || !model->body) return senders;
+  for (const Receiver& receiver : receivers_) {
+    const auto same = [&](const osc::BodySender& s) { return s.form() == receiver.form; };
+    if (std::ranges::none_of(senders, same)) senders.emplace_back(model, receiver.form);
+  }
+  return senders;
+}
+
+void OscReceivers::use(std::shared_ptr<const Model> model, int performers) {
+  senders_ = senders_for(model);
+  model_ = std::move(model);
+  pose_.resize(static_cast<std::size_t>(expected("pose")));
+  roots_.assign(4 * static_cast<std::size_t>(performers), 0);
+}
+
+int OscReceivers::expected(std::string_view selector) const noexcept {
+  if (selector == "root") return 4;
+  return model_ && model_->body ? 3 * model_->body->skeleton.size() : 0;
+}
+
+bool OscReceivers::take(const Arguments& arguments, int performer) noexcept {
+  const std::span<float> root(roots_.data() + 4 * static_cast<std::ptrdiff_t>(performer), 4);
+  if (arguments.selector() == "root") return arguments.read(root);
+  if (pose_.empty() || !arguments.read(pose_)) return false;
+  for (osc::BodySender& sender : senders_) {
+    std::size_t count = 0;
+    for (const Receiver& receiver : receivers_)
+      if (receiver.form == sender.form()) to_[count++] = receiver.destination;
+    sender.send(root, pose_, clock_gettimesince(0) / 1000, std::span(to_).first(count));
+  }
+  return true;
+}
+
+void OscReceivers::dump(Outlet& info) const {
+  for (const Receiver& receiver : receivers_)
+    info.add(receiver.host)
+        .add(receiver.port)
+        .add(std::string(osc::form_name(receiver.form)))
+        .send("to");
+}
+
+}  // namespace gait::pd
