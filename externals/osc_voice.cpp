@@ -97,29 +97,29 @@ void OscVoice::send_sender(Outlet& info) {
 
 void OscVoice::release(double now, Outlet& in, Outlet& pose, Outlet& info, Perf& perf,
                        Latency& latency) {
-  for (auto frame = waiting_.pop(now); !frame.empty(); frame = waiting_.pop(now)) {
-    const Perf::Frame measured(perf);
-    latency.add(osc::Receiver::now() - waiting_.arrival());
-    if (changed_sender_) {
-      changed_sender_ = false;
-      send_sender(info);
-    }
-    if (!said_flowing_) {
-      said_flowing_ = true;
-      rate_from_ = 0;
-      begin(info, "stream").add(1);
-      send(info, "stream");
-    }
-    if (frame[0] != 0 && pose_ > 0) {
-      begin(pose, "root").add(frame.subspan(1, 4));
-      send(pose, "root");
-      begin(pose, "pose").add(frame.subspan(head + there_.size() + inputs_));
-      send(pose, "pose");
-    }
-    send_masks(in, frame.subspan(head, there_.size()));
-    begin(in, "in").add(frame.subspan(head + there_.size(), inputs_));
-    send(in, "in");
+  const auto frame = waiting_.pop(now);
+  if (frame.empty()) return;
+  const Perf::Frame measured(perf);
+  latency.add(osc::Receiver::now() - waiting_.arrival());
+  if (changed_sender_) {
+    changed_sender_ = false;
+    send_sender(info);
   }
+  if (!said_flowing_) {
+    said_flowing_ = true;
+    rate_from_ = 0;
+    begin(info, "stream").add(1);
+    send(info, "stream");
+  }
+  if (frame[0] != 0 && pose_ > 0) {
+    begin(pose, "root").add(frame.subspan(1, 4));
+    send(pose, "root");
+    begin(pose, "pose").add(frame.subspan(head + there_.size() + inputs_));
+    send(pose, "pose");
+  }
+  send_masks(in, frame.subspan(head, there_.size()));
+  begin(in, "in").add(frame.subspan(head + there_.size(), inputs_));
+  send(in, "in");
 }
 
 void OscVoice::report(double now, Outlet& info) {

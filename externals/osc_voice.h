@@ -34,8 +34,9 @@ class OscVoice {
 
   // From the gatherer, on Pd's thread; sends nothing.
   void take(const osc::CapturedFrame& frame) noexcept;
-  // Sends what is due. `now`: seconds on the clock of arrivals. `latency`: from a frame's arrival
-  // to its leaving.
+  // Sends a frame if one is due: one at a time, for who takes it tells frames apart by when they
+  // come, and a network may hand over several at once. `now`: seconds on the clock of arrivals.
+  // `latency`: from a frame's arrival to its leaving.
   void release(double now, Outlet& in, Outlet& pose, Outlet& info, Perf& perf, Latency& latency);
   // A tick of the clock: whether the stream flows, at what rate.
   void report(double now, Outlet& info);

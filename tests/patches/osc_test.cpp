@@ -285,6 +285,29 @@ TEST(Osc, sixty_bones_go_in_and_out_without_loss_or_delay_or_growth) {
   }
 }
 
+// A wireless network may hand over what it held back all at once.
+TEST(Osc, frames_that_come_in_one_burst_are_all_taken_one_after_another) {
+  GAIT_NEEDS_PD();
+  LivePatch patch;
+  patch.record(patch.osc, 0, "in");
+  const int viterbi = patch.object("gait.viterbi~ gait-demo");
+  patch.connect(patch.osc, 0, viterbi);
+  patch.record(viterbi, 5, "seen");
+  const PdRun run = patch.run([&](const PdRun&) {
+    const HumanoidBody body = osc::humanoid_of(*demo()->body);
+    const auto poses = humanoid_poses(unseen_walk("cool", 3).clip, body);
+    const osc::Destination to("127.0.0.1", patch.port);
+    FullSuit suit;
+    for (std::size_t frame = 0; frame < 60; ++frame) {
+      suit.send(poses[frame], 0, 0, to);
+      if (frame % 4 == 3) wait_until(now() + 4 / 30.0);
+    }
+  });
+  EXPECT_TRUE(run.errors().empty()) << run.log;
+  EXPECT_EQ(count(run, "in", "in "), 60);
+  EXPECT_NEAR(count(run, "seen", "state "), 60, 5);
+}
+
 TEST(Osc, twenty_performers_are_told_apart_and_none_loses_a_frame) {
   GAIT_NEEDS_PD();
   constexpr int performers = 20;

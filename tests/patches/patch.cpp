@@ -151,17 +151,23 @@ bool PdRun::wait_for(const std::string& name, const std::string& beginning) cons
   return false;
 }
 
-double PdRun::megabytes() const {
+int PdRun::process() const {
   namespace fs = std::filesystem;
   for (const auto& process : fs::directory_iterator("/proc")) {
     std::error_code unreadable;  // of others, or over by now
     if (fs::read_symlink(process.path() / "cwd", unreadable) != folder) continue;
     std::ifstream status(process.path() / "status");
     std::string line;
-    if (!std::getline(status, line) || line != "Name:\tpd") continue;
-    while (std::getline(status, line))
-      if (line.starts_with("VmRSS:")) return std::stod(line.substr(6)) / 1000;
+    if (std::getline(status, line) && line == "Name:\tpd")
+      return std::stoi(process.path().filename());
   }
+  return 0;
+}
+
+double PdRun::megabytes() const {
+  std::ifstream status("/proc/" + std::to_string(process()) + "/status");
+  for (std::string line; std::getline(status, line);)
+    if (line.starts_with("VmRSS:")) return std::stod(line.substr(6)) / 1000;
   return 0;
 }
 

@@ -55,7 +55,8 @@ struct PdRun {
                                            const std::string& selector) const;
   // Waits until the record has a line that begins so; false when five seconds have passed.
   bool wait_for(const std::string& name, const std::string& beginning) const;
-  // Memory that Pd has in use while it runs, in MB; 0 when it does not run.
+  // Pd's process while it runs, and the memory that it has in use, in MB; 0 when it does not run.
+  int process() const;
   double megabytes() const;
   // Lines of the log that mean a failure (pd-notes: they do not show in the exit code).
   std::vector<std::string> errors() const;

@@ -2,9 +2,11 @@
 #include <gtest/gtest.h>
 
 #include <cmath>
+#include <csignal>
 #include <filesystem>
 #include <numbers>
 #include <random>
+#include <thread>
 
 #include "gait/corpus/corpus.h"
 #include "gait/judge/takes_file.h"
@@ -134,6 +136,34 @@ TEST(TrainObject, loses_no_take_when_pd_ends) {
   EXPECT_EQ(info.size(), 18u + 17u) << run.log;
   EXPECT_TRUE(info[0].starts_with("take 0 circle ")) << info[0];
   EXPECT_TRUE(info[18].starts_with("take 0 line ")) << info[18];
+}
+
+TEST(TrainObject, loses_no_take_when_pd_is_killed) {
+  GAIT_NEEDS_PD();
+  std::string state = ::testing::TempDir() + "gait_state_XXXXXX";
+  ASSERT_NE(mkdtemp(state.data()), nullptr);
+  RunOptions options{.state = state};
+  {
+    Score score;
+    for (const char* label : {"circle", "line", "wave"}) score.gesture(label, 20);
+    TrainPatch patch("moves -in 2", score.text);
+    options.meanwhile = [](const PdRun& running) {
+      EXPECT_TRUE(running.wait_for("info", "take 2 wave"));
+      std::this_thread::sleep_for(std::chrono::milliseconds(300));
+      EXPECT_EQ(kill(running.process(), SIGKILL), 0);
+    };
+    EXPECT_NE(run_pd(patch, options).exit_code, 0);
+    options.meanwhile = {};
+  }
+  TrainPatch patch("moves -in 2 -blocking", "");
+  patch.at_start({"add " + state + "/gait/moves.takes.1"}, patch.train);
+  patch.quit_after(10);
+  const PdRun run = run_pd(patch, options);
+  EXPECT_NE(run.log.find("takes of an earlier session are in " + state), std::string::npos)
+      << run.log;
+  const auto info = run.recorded("info");
+  ASSERT_EQ(info.size(), 3u) << run.log;
+  EXPECT_TRUE(info[2].starts_with("take 2 wave ")) << info[2];
 }
 
 TEST(TrainObject, learns_walks_from_poses) {
