@@ -1,7 +1,6 @@
 // gait synth: a walk in a model's styles, as long as one likes, out of nothing.
 #include <algorithm>
 #include <memory>
-#include <numbers>
 #include <optional>
 #include <string>
 #include <vector>
@@ -20,8 +19,6 @@
 namespace gait::tool {
 
 namespace {
-
-constexpr double degree = std::numbers::pi / 180;
 
 struct SynthOptions {
   std::string model, output, style, mix, engine = "style";

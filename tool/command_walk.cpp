@@ -1,6 +1,5 @@
 // gait walk: a walk at any speed, on legs of any length, out of nothing.
 #include <memory>
-#include <numbers>
 #include <optional>
 #include <string>
 #include <vector>
@@ -19,8 +18,6 @@
 namespace gait::tool {
 
 namespace {
-
-constexpr double degree = std::numbers::pi / 180;
 
 struct WalkOptionsSaid {
   std::string model, output, speed, subject, law = "feet";

@@ -2,10 +2,13 @@
 #pragma once
 
 #include <CLI/CLI.hpp>
+#include <numbers>
 #include <optional>
 #include <string>
 
 namespace gait::tool {
+
+inline constexpr double degree = std::numbers::pi / 180;
 
 // `turn`: degrees per second, above 0 to the left. `rate`: none stays the model's.
 void add_walk_output(CLI::App& command, double& turn, std::optional<double>& rate,
