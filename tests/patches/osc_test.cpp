@@ -226,7 +226,7 @@ TEST(Osc, sixty_bones_go_in_and_out_without_loss_or_delay_or_growth) {
     const int later = patch.object("del " + std::to_string(ms)), number = patch.message(on);
     patch.connect(begin, 0, later);
     patch.connect(later, 0, number);
-    patch.connect(number, 0, patch.object("watch"));
+    if (can_watch()) patch.connect(number, 0, patch.object("watch"));
   }
   const int frames = static_cast<int>(seconds * 120);
   std::vector<double> sent(static_cast<std::size_t>(frames), 0), latency;
@@ -279,8 +279,8 @@ TEST(Osc, sixty_bones_go_in_and_out_without_loss_or_delay_or_growth) {
   EXPECT_EQ(count(run, "info", "dropped"), 0);
   EXPECT_NEAR(walked, frames / 4, 8);  // the model's 30 fps
   EXPECT_GT(first_memory, 1);
-  EXPECT_LT(last_memory, first_memory + 1);
-  if (can_watch()) {
+  if (can_watch()) {  // a sanitizer keeps what is freed for a while
+    EXPECT_LT(last_memory, first_memory + 1);
     EXPECT_EQ(watched_allocations(run), 0) << run.log;
   }
 }
@@ -423,7 +423,9 @@ TEST(Osc, a_flood_is_dropped_and_told_once_a_second_while_the_sound_goes_on) {
       sent, seconds, sent / seconds, mean, longest, 100 * blocks / (750 * listened), before, after,
       said, run.log.substr(run.log.rfind('\n', printed) + 1).c_str());
   EXPECT_GT(blocks, 0.97 * 750 * listened);
-  EXPECT_LT(after, before + 8);
+  if (can_watch()) {
+    EXPECT_LT(after, before + 8);
+  }
   EXPECT_LE(said, seconds + 2);
   EXPECT_LE(static_cast<double>(run.errors().size()), seconds + 2) << run.log;
   EXPECT_GE(frames_after, frames_before + 28);
