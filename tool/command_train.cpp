@@ -4,6 +4,7 @@
 #include <ctime>
 #include <filesystem>
 #include <memory>
+#include <numbers>
 #include <optional>
 #include <set>
 #include <string>
@@ -34,6 +35,7 @@ struct TrainOptions {
   std::vector<std::string> input_joints, output_joints;
   std::optional<int> states, rounds, threads;
   std::optional<double> rate, regularisation;
+  double placement = 0;         // degrees
   std::vector<double> history;  // ms
   std::optional<DecoderKind> decoder;
   bool synthetic = false, json = false;
@@ -48,6 +50,7 @@ SelectionOptions selection_of(const TrainOptions& options) {
     for (const double milliseconds : std::set(options.history.begin(), options.history.end()))
       selection.learning.history.push_back(milliseconds / 1000);
   }
+  selection.learning.placement = options.placement * std::numbers::pi / 180;
   selection.learning.hmm.threads = options.threads.value_or(0);
   selection.regularisation = options.regularisation;
   selection.rounds = options.rounds;
@@ -177,6 +180,11 @@ Command train_command(CLI::App& program) {
                   "How firmly covariances are held, in frames (by cross-validation)")
       ->check(within(0.01, 1e6))
       ->type_name("K");
+  app->add_option("--placement", options->placement,
+                  "How far a live performer's sensors may sit or be calibrated off, in degrees")
+      ->check(within(0.0, 30.0))
+      ->capture_default_str()
+      ->type_name("DEG");
   app->add_option("--rounds", options->rounds, "Rounds of Baum-Welch (by cross-validation)")
       ->check(CLI::Range(0, 100))
       ->type_name("N");

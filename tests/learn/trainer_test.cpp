@@ -75,6 +75,26 @@ TEST(Trainer, states_hold_each_styles_mean) {
   }
 }
 
+TEST(Trainer, a_sensor_that_may_sit_otherwise_widens_poses_and_not_their_differences) {
+  LearningOptions options = with_states(3);
+  const Model exact = learn(walking_task(few_sequences()), options).model;
+  options.placement = 0.02;
+  const Model wide = learn(walking_task(few_sequences()), options).model;
+  const int statics = exact.input.statics();
+  for (std::size_t label = 0; label < exact.labels.size(); ++label)
+    for (std::size_t k = 0; k < exact.labels[label].states.size(); ++k) {
+      const State &before = exact.labels[label].states[k], &after = wide.labels[label].states[k];
+      for (int i = 0; i < exact.input.size(); ++i) {
+        const double deviation = exact.input_scaling.deviation[i],
+                     added = i < statics ? std::pow(0.02 / deviation, 2) : 0;
+        EXPECT_NEAR(after.covariance(i, i) - before.covariance(i, i), added, 1e-9 + 1e-9 * added);
+        EXPECT_NEAR(after.style_covariance(i, i) - before.style_covariance(i, i), added,
+                    1e-9 + 1e-9 * added);
+      }
+      EXPECT_LT((after.mean - before.mean).norm(), 1e-12);
+    }
+}
+
 TEST(Trainer, needs_takes_of_every_label_and_a_state) {
   LearningTask task = walking_task(few_sequences());
   EXPECT_THROW(learn(task, with_states(0)), Error);

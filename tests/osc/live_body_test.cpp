@@ -109,9 +109,7 @@ TEST(LiveBody, a_strange_rig_decides_as_the_file_does_after_calibration) {
     }
 }
 
-// Nobody stands in a T-pose to the degree. How much that costs depends on the model; the built-in
-// one, of a single drawn body, forgives little, so this asks for no more than a third of a degree
-// and prints the rest.
+// Nobody stands in a T-pose to the degree.
 TEST(LiveBody, a_performer_who_does_not_stand_quite_so_is_still_understood) {
   for (const double off : {0.3, 1.0, 3.0}) {
     double sum = 0;
@@ -121,9 +119,7 @@ TEST(LiveBody, a_performer_who_does_not_stand_quite_so_is_still_understood) {
     RecordProperty("agreement_" + std::to_string(static_cast<int>(10 * off)),
                    std::to_string(sum / 4));
     std::printf("%.1f degrees off: %.1f %% of decisions\n", off, 25 * sum);
-    if (off < 0.5) {
-      EXPECT_GE(sum / 4, 0.9);
-    }
+    EXPECT_GE(sum / 4, off < 2 ? 0.98 : 0.96);
   }
 }
 

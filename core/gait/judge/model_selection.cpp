@@ -109,8 +109,8 @@ class Selection {
     Held held;
     for (const StateStatistics& state : rest)
       if (state.count < 1) return held;  // a state that only this fold has passed through
-    set_states(*model, learnt.table, rest, learnt.states.stay, learnt.states.target,
-               regularisation);
+    set_states(*model, learnt.table, rest, learnt.states.stay, learnt.states.target, regularisation,
+               options_.learning.placement);
     const auto tables = make_state_tables(*model);
     for (const int index : folds_[fold]) {
       const Sequence& sequence = task_.sequences[learnt.observed.sequences[index].source];
@@ -274,7 +274,7 @@ class Selection {
 
   Selected finish(double regularisation, const char* by) {
     set_states(learnt_.model, learnt_.table, learnt_.states.statistics, learnt_.states.stay,
-               learnt_.states.target, regularisation);
+               learnt_.states.target, regularisation, options_.learning.placement);
     learnt_.model.training.regularisation = regularisation;
     learnt_.model.training.regularisation_chosen_by = by;
     selected_.model = std::move(learnt_.model);

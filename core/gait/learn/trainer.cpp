@@ -48,18 +48,22 @@ void set_durations(Model& model, const ObservationSet& observed) {
 // Variance that any sensor gives each entry of an observation, scaled as they are. A joint that
 // rests at another angle in each style, and trembles in none, would otherwise be all that steps and
 // styles are told by, and the slightest movement of it another step or style.
-Eigen::VectorXd sensor_variance(const Model& model) {
+// `placement`: where it sits, radians; what it adds to a pose it does not add to a difference.
+Eigen::VectorXd sensor_variance(const Model& model, double placement) {
   constexpr double sensor_deviation = 3e-4;  // radians: 0.02 degrees, the quiet of a still suit
-  std::vector<double> of_value;
+  std::vector<bool> turns;                   // per value
   for (const Stream& stream : model.inputs)
-    of_value.insert(of_value.end(), stream.size,
-                    stream.kind == StreamKind::rotation ? sensor_deviation * sensor_deviation : 0);
+    turns.insert(turns.end(), stream.size, stream.kind == StreamKind::rotation);
   const int statics = model.input.statics();
   Eigen::VectorXd variance(model.input.size());
   for (int i = 0; i < variance.size(); ++i) {
-    const double entries = i < statics ? 1 : 2;  // a difference has the noise of two frames
-    variance[i] = entries * of_value[model.input.modelled[i % statics]] /
-                  (model.input_scaling.deviation[i] * model.input_scaling.deviation[i]);
+    const double noise = sensor_deviation * sensor_deviation;
+    // A difference has the noise of two frames.
+    const double of_turn = i < statics ? noise + placement * placement : 2 * noise;
+    variance[i] =
+        turns[model.input.modelled[i % statics]]
+            ? of_turn / (model.input_scaling.deviation[i] * model.input_scaling.deviation[i])
+            : 0;
   }
   return variance;
 }
@@ -68,9 +72,9 @@ Eigen::VectorXd sensor_variance(const Model& model) {
 
 void set_states(Model& model, const StateTable& table,
                 const std::vector<StateStatistics>& statistics, const std::vector<double>& stay,
-                const Eigen::VectorXd& target, double regularisation) {
+                const Eigen::VectorXd& target, double regularisation, double placement) {
   const int inputs = model.input.size();
-  const Eigen::VectorXd sensor = sensor_variance(model);
+  const Eigen::VectorXd sensor = sensor_variance(model, placement);
   for (std::size_t i = 0; i < model.labels.size(); ++i) {
     Label& label = model.labels[i];
     label.states.resize(table.states[i]);  // what was learnt of trajectories stays
@@ -124,7 +128,7 @@ Learnt learn(const LearningTask& task, const LearningOptions& options) {
   learnt.states = train_states(learnt.observed.sequences, learnt.table,
                                static_cast<int>(task.styles.size()), options.hmm);
   set_states(model, learnt.table, learnt.states.statistics, learnt.states.stay,
-             learnt.states.target, options.hmm.regularisation);
+             learnt.states.target, options.hmm.regularisation, options.placement);
   set_trajectories(model, task.sequences, learnt.observed, learnt.table, learnt.states.alignments);
   model.training.regularisation = options.hmm.regularisation;
   model.training.log_likelihood = learnt.states.log_likelihood;

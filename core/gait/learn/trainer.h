@@ -27,6 +27,9 @@ struct LearningTask {
 struct LearningOptions {
   int states = 8;                                              // per label
   std::vector<double> history{1.0 / 30, 5.0 / 30, 10.0 / 30};  // seconds back of input differences
+  // Radians by which a joint's sensor may sit or be calibrated otherwise than when it was learnt
+  // from; part of steps' and styles' covariances.
+  double placement = 0;
   HmmOptions hmm;
 };
 
@@ -43,9 +46,10 @@ struct Learnt {
 Learnt learn(const LearningTask& task, const LearningOptions& options);
 
 // Puts states into a model from statistics: means, regularised covariances (with a quiet sensor's
-// variance), styles. `statistics`, `stay`: per state of all labels; `target`: T's diagonal, over z.
+// variance and that of its placement), styles. `statistics`, `stay`: per state of all labels;
+// `target`: T's diagonal, over z.
 void set_states(Model& model, const StateTable& table,
                 const std::vector<StateStatistics>& statistics, const std::vector<double>& stay,
-                const Eigen::VectorXd& target, double regularisation);
+                const Eigen::VectorXd& target, double regularisation, double placement);
 
 }  // namespace gait
