@@ -49,9 +49,9 @@ class Osc final : public ModelUser, osc::FrameSink {
     else if (selector == "close")
       close();
     else if (selector == "to")
-      receivers_.to(arguments);
+      receivers_.to(arguments, -1);
     else if (selector == "calibrate")
-      calibrate(arguments);
+      calibrate(arguments, -1);
     else if (selector == "yaw")
       set(arguments, settings_.yaw, -360, 360);
     else if (selector == "jitter")
@@ -71,14 +71,21 @@ class Osc final : public ModelUser, osc::FrameSink {
     else
       arguments.fail("no such message");
   }
-  // Of several performers, one's pose after his number.
+  // Of several performers, what is for one comes after his number.
   void list(const Arguments& arguments) {
     if (count_ == 0 || !arguments.is_symbol(1)) arguments.fail("no such message");
     const int voice = arguments.integer(0, 0, count_ - 1);
     const auto atoms = arguments.atoms().subspan(2);
-    outgoing(Arguments(box().name(), arguments.atoms()[1].a_w.w_symbol->s_name,
-                       static_cast<int>(atoms.size()), atoms.data()),
-             voice);
+    const Arguments message(box().name(), arguments.atoms()[1].a_w.w_symbol->s_name,
+                            static_cast<int>(atoms.size()), atoms.data());
+    if (message.selector() == "pose" || message.selector() == "root")
+      outgoing(message, voice);
+    else if (message.selector() == "calibrate")
+      calibrate(message, voice);
+    else if (message.selector() == "to")
+      receivers_.to(message, voice);
+    else
+      message.fail("expected pose, root, calibrate or to after a performer's number");
   }
 
  private:
@@ -88,11 +95,15 @@ class Osc final : public ModelUser, osc::FrameSink {
   }
 
   void take(const SharedModel& shared, const SharedModel&) override {
-    std::vector<std::unique_ptr<OscVoice>> voices;
-    for (int i = 0; i < std::max(1, count_); ++i)
-      voices.push_back(std::make_unique<OscVoice>(shared->model, count_ > 0 ? i : -1, settings_));
+    std::vector<std::shared_ptr<OscVoice>> voices;
+    for (int i = 0; i < std::max(1, count_); ++i) {
+      voices.push_back(std::make_shared<OscVoice>(shared->model, count_ > 0 ? i : -1, settings_));
+      if (!voices_.empty()) voices.back()->take_over(*voices_[static_cast<std::size_t>(i)]);
+    }
     receivers_.use(shared->model, std::max(1, count_));
+    settle_dropped();
     voices_ = std::move(voices);
+    counted_ = count_dropped();
     for (Outlet* outlet : {&in_, &pose_, &info_})
       outlet->reserve(std::max(receivers_.expected("pose"), values_of(shared->model->inputs)) + 8);
   }
@@ -117,30 +128,47 @@ class Osc final : public ModelUser, osc::FrameSink {
       return;
     // The same port in another way needs the old one closed; another port leaves it until it works.
     if (receiver_ && wanted.port == listening_.port) close();
+    std::unique_ptr<osc::Receiver> opened;
     try {
-      auto opened = std::make_unique<osc::Receiver>(wanted);
-      close();
-      receiver_ = std::move(opened);
+      opened = std::make_unique<osc::Receiver>(wanted);
     } catch (const Error& error) {
       arguments.fail(error.what());
     }
-    listening_ = wanted;
+    settle_dropped();
+    receiver_ = std::move(opened);
     gatherer_.emplace(std::max(1, count_));
-    dropped_ = 0;
+    counted_ = count_dropped();
+    listening_ = wanted;
     poll_.after(0);
+    end_streams();
   }
 
   void close() {
+    settle_dropped();
     poll_.cancel();
     receiver_.reset();
+    gatherer_.reset();
+    counted_ = count_dropped();
+    end_streams();
   }
 
-  void calibrate(const Arguments& arguments) {
+  void end_streams() {
+    const auto voices = voices_;  // what is said may change them
+    for (const auto& voice : voices) voice->end(info_);
+  }
+
+  // All performers, or the one.
+  void calibrate(const Arguments& arguments, int only) {
     arguments.expect_count(1);
     const std::string pose = arguments.symbol(0);
     if (pose != "t" && pose != "i") arguments.fail_at(0, "t or i");
-    for (const auto& voice : voices_)
-      voice->calibrate(pose == "t" ? CalibrationPose::t : CalibrationPose::i);
+    bool somebody = false;
+    for (int i = 0; i < static_cast<int>(voices_.size()); ++i)
+      if ((only < 0 || i == only) &&
+          voices_[static_cast<std::size_t>(i)]->calibrate(
+              pose == "t" ? CalibrationPose::t : CalibrationPose::i, osc::Receiver::now()))
+        somebody = true;
+    if (!somebody) arguments.fail("expected a performer who is there; nobody sends");
   }
 
   void set(const Arguments& arguments, double& setting, double least, double most) {
@@ -151,10 +179,13 @@ class Osc final : public ModelUser, osc::FrameSink {
 
   void outgoing(const Arguments& arguments, int voice) {
     if (!ready_for_frame()) return;
-    if (arguments.selector() != "pose" && arguments.selector() != "root")
-      arguments.fail("no such message");
     const Perf::Frame measured(perf());
-    if (receivers_.take(arguments, voice)) return;
+    if (receivers_.take(arguments, voice)) {
+      if (receivers_.take_failure())
+        slow_error().say(
+            [&] { return std::string(box().name()) + ": to: the network did not take a body"; });
+      return;
+    }
     slow_error().say([&] {
       return std::string(box().name()) + ": " + std::string(arguments.selector()) + ": expected " +
              std::to_string(receivers_.expected(arguments.selector())) + " numbers, got " +
@@ -177,29 +208,47 @@ class Osc final : public ModelUser, osc::FrameSink {
     if (!receiver_) return;
     const double now = osc::Receiver::now();
     gatherer_->end_old(now, *this);
-    // What is sent may come back here as any message: nothing below relies on what is above.
+    // What is sent may come back here as any message, even as another model: a voice lives until it
+    // has said all.
     for (std::size_t i = 0; i < voices_.size(); ++i) {
-      voices_[i]->release(now, in_, pose_, info_, perf(), latency_);
-      voices_[i]->report(now, info_);
+      const std::shared_ptr<OscVoice> voice = voices_[i];
+      voice->release(now, in_, pose_, info_, perf(), latency_);
+      voice->report(now, info_);
     }
     if (now - reported_ >= 1) report(now);
   }
 
   void report(double now) {
     reported_ = now;
-    if (!receiver_) return;
-    const osc::Received received = receiver_->received();
-    std::uint64_t dropped = received.dropped + received.faulty + gatherer_->refused();
-    for (const auto& voice : voices_) dropped += static_cast<std::uint64_t>(voice->unfit());
-    if (dropped == dropped_) return;
-    const auto more = dropped - dropped_;
-    dropped_ = dropped;
+    const std::uint64_t before = told_dropped_;
+    settle_dropped();
+    if (dropped_ == before) return;
+    const auto more = dropped_ - before;
+    told_dropped_ = dropped_;
     slow_error().say([&] {
       return std::string(box().name()) + ": " + std::to_string(more) +
              " events were dropped: faulty, of performers beyond the number asked for, of another "
              "model, or too many at once";
     });
-    info_.add(static_cast<double>(dropped)).send("dropped");
+    info_.add(static_cast<double>(dropped_)).send("dropped");
+  }
+
+  // What was dropped, by all who count now.
+  std::uint64_t count_dropped() const {
+    std::uint64_t count = 0;
+    if (receiver_) {
+      const osc::Received received = receiver_->received();
+      count += received.dropped + received.faulty;
+    }
+    if (gatherer_) count += gatherer_->refused();
+    for (const auto& voice : voices_) count += static_cast<std::uint64_t>(voice->dropped());
+    return count;
+  }
+  // Before one of them begins anew (counted_ is set again after that), or to tell it.
+  void settle_dropped() {
+    const std::uint64_t count = count_dropped();
+    dropped_ += count - counted_;
+    counted_ = count;
   }
 
   void report_perf() {
@@ -208,8 +257,10 @@ class Osc final : public ModelUser, osc::FrameSink {
   }
 
   void reset() {
+    settle_dropped();
     for (const auto& voice : voices_) voice->reset();
     if (gatherer_) gatherer_.emplace(std::max(1, count_));
+    counted_ = count_dropped();
   }
 
   void print() {
@@ -249,10 +300,10 @@ class Osc final : public ModelUser, osc::FrameSink {
   osc::ReceiverSettings listening_;
   std::unique_ptr<osc::Receiver> receiver_;
   std::optional<osc::FrameGatherer> gatherer_;
-  std::vector<std::unique_ptr<OscVoice>> voices_;
+  std::vector<std::shared_ptr<OscVoice>> voices_;
   Latency latency_;
   double reported_ = 0;
-  std::uint64_t dropped_ = 0;
+  std::uint64_t dropped_ = 0, told_dropped_ = 0, counted_ = 0;  // counted_: of count_dropped()
   Ticker poll_{[this] { poll(); }};
 };
 

@@ -8,15 +8,19 @@
 
 namespace gait::pd {
 
-void OscReceivers::to(const Arguments& arguments) {
+void OscReceivers::to(const Arguments& arguments, int performer) {
   arguments.expect_count(0, 3);
   if (arguments.size() == 0) {
     ++lookups_;
-    receivers_.clear();
-    senders_.clear();
+    std::erase_if(receivers_, [&](const Receiver& receiver) {
+      return performer < 0 || receiver.performer == performer;
+    });
+    senders_ = senders_for(model_);
+    to_.fill(nullptr);
     return;
   }
   Receiver wanted;
+  wanted.performer = performer;
   wanted.host = arguments.text(0);
   wanted.port = arguments.size() > 1 ? arguments.integer(1, 1, 65535) : 39539;
   if (arguments.size() > 2) {
@@ -94,18 +98,24 @@ bool OscReceivers::take(const Arguments& arguments, int performer) noexcept {
   for (osc::BodySender& sender : senders_) {
     std::size_t count = 0;
     for (const Receiver& receiver : receivers_)
-      if (receiver.form == sender.form()) to_[count++] = receiver.destination;
-    sender.send(root, pose_, clock_gettimesince(0) / 1000, std::span(to_).first(count));
+      if (receiver.form == sender.form() &&
+          (receiver.performer < 0 || receiver.performer == performer))
+        to_[count++] = receiver.destination;
+    if (count > 0 &&
+        !sender.send(root, pose_, clock_gettimesince(0) / 1000, std::span(to_).first(count)))
+      failed_ = true;
   }
   return true;
 }
 
 void OscReceivers::dump(Outlet& info) const {
-  for (const Receiver& receiver : receivers_)
+  for (const Receiver& receiver : receivers_) {
+    if (receiver.performer >= 0) info.add(receiver.performer).add("to");
     info.add(receiver.host)
         .add(receiver.port)
         .add(std::string(osc::form_name(receiver.form)))
-        .send("to");
+        .send(receiver.performer >= 0 ? "list" : "to");
+  }
 }
 
 }  // namespace gait::pd

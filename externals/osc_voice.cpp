@@ -10,7 +10,8 @@ namespace gait::pd {
 
 namespace {
 
-constexpr std::size_t head = 5;  // of a waiting frame: posed, x y z, heading
+constexpr double longest_wait = 1;  // seconds, for the frame of a calibration
+constexpr std::size_t head = 5;     // of a waiting frame: posed, x y z, heading
 
 }  // namespace
 
@@ -35,15 +36,46 @@ void OscVoice::set(const OscSettings& settings) {
   hold_ = settings.hold;
 }
 
+bool OscVoice::calibrate(CalibrationPose pose, double now) {
+  if (!flowing_) return false;
+  body_.calibrate(pose, now + longest_wait);
+  return true;
+}
+
 void OscVoice::reset() {
   body_.reset();
   waiting_.reset();
 }
 
+void OscVoice::take_over(const OscVoice& before) {
+  body_.take_over(before.body_);
+  sender_ = before.sender_, stream_ = before.stream_, form_ = before.form_;
+  changed_sender_ = before.changed_sender_;
+  flowing_ = before.flowing_, said_flowing_ = before.said_flowing_;
+  last_ = before.last_;
+  for (std::size_t i = 0; i < there_.size(); ++i)
+    for (std::size_t j = 0; j < before.there_.size(); ++j)
+      if (model_->inputs[i].name == before.model_->inputs[j].name) there_[i] = before.there_[j];
+}
+
+void OscVoice::end(Outlet& info) {
+  waiting_.reset();
+  flowing_ = false;
+  if (!said_flowing_) return;
+  said_flowing_ = false;
+  begin(info, "stream").add(0);
+  send(info, "stream");
+}
+
 void OscVoice::take(const osc::CapturedFrame& frame) noexcept {
   if (frame.sender != sender_ || frame.stream != stream_ || frame.form != form_) {
     // The same program may open another port for every take: what was calibrated holds on.
-    if (frame.form != form_) body_.reset();
+    const bool same_performer =
+        frame.form == form_ && frame.stream == stream_ && frame.sender >> 16 == sender_ >> 16;
+    if (same_performer)
+      body_.forget_pose();
+    else
+      body_.reset();
     sender_ = frame.sender, stream_ = frame.stream, form_ = frame.form;
     changed_sender_ = true;
   }
@@ -124,9 +156,7 @@ void OscVoice::release(double now, Outlet& in, Outlet& pose, Outlet& info, Perf&
 
 void OscVoice::report(double now, Outlet& info) {
   if (flowing_ && said_flowing_ && now - last_ > hold_ && waiting_.waiting() == 0) {
-    flowing_ = said_flowing_ = false;
-    begin(info, "stream").add(0);
-    send(info, "stream");
+    end(info);
   }
   if (!flowing_) {
     rate_from_ = 0;

@@ -29,8 +29,12 @@ class OscVoice {
   OscVoice(std::shared_ptr<const Model> model, int number, const OscSettings& settings);
 
   void set(const OscSettings& settings);
-  void calibrate(CalibrationPose pose) { body_.calibrate(pose); }
+  // The next frame is that pose, unless it is late. False, with nothing changed, while nobody
+  // sends.
+  bool calibrate(CalibrationPose pose, double now);
   void reset();
+  // The same performer as that one, of another model: calibrated as he was, what was told is told.
+  void take_over(const OscVoice& before);
 
   // From the gatherer, on Pd's thread; sends nothing.
   void take(const osc::CapturedFrame& frame) noexcept;
@@ -40,8 +44,11 @@ class OscVoice {
   void release(double now, Outlet& in, Outlet& pose, Outlet& info, Perf& perf, Latency& latency);
   // A tick of the clock: whether the stream flows, at what rate.
   void report(double now, Outlet& info);
-  // Values for nobody: of another count than the model's.
-  int unfit() const { return unfit_; }
+  // Nobody listens to him any longer.
+  void end(Outlet& info);
+  // Frames of values of another count than the model's, and those the jitter buffer had no room
+  // for.
+  int dropped() const { return unfit_ + waiting_.lost(); }
 
  private:
   Outlet& begin(Outlet& outlet, const char* selector);

@@ -1,10 +1,14 @@
 #include "take_recorder.h"
 
+#include <fcntl.h>
 #include <m_pd.h>
+#include <sys/file.h>
+#include <unistd.h>
 
 #include <cstdlib>
 #include <filesystem>
 #include <fstream>
+#include <utility>
 
 #include "gait/error.h"
 #include "pd/worker.h"
@@ -26,18 +30,61 @@ std::string journal_path(const std::string& name) {
   return (folder / "gait" / (file + ".takes")).string();
 }
 
-TakeRecorder::TakeRecorder(std::string journal, bool blocking)
-    : journal_(std::move(journal)), blocking_(blocking) {
-  std::error_code failure;
-  if (!fs::exists(journal_, failure)) return;
-  // The newest stays beside the new one; those before it are numbered.
-  for (int number = 1; number < 1000; ++number) {
-    const std::string aside = journal_ + "." + std::to_string(number);
-    if (fs::exists(aside, failure)) continue;
-    fs::rename(journal_, aside, failure);
-    if (!failure) left_behind_ = aside;
-    return;
+// Locked for as long as it is open.
+struct TakeRecorder::Journal {
+  std::string path;
+  int file = -1;
+  bool begun = false;
+
+  explicit Journal(std::string at) : path(std::move(at)) {
+    file = open(path.c_str(), O_RDWR | O_CREAT | O_CLOEXEC, 0600);
+    if (file >= 0 && flock(file, LOCK_EX | LOCK_NB) != 0) {
+      close(file);
+      file = -1;
+    }
   }
+  ~Journal() {
+    if (file < 0) return;
+    std::error_code failure;
+    if (!begun) fs::remove(path, failure);
+    close(file);
+  }
+  Journal(const Journal&) = delete;
+  Journal& operator=(const Journal&) = delete;
+};
+
+TakeRecorder::TakeRecorder(const std::string& journal, bool blocking) : blocking_(blocking) {
+  std::error_code failure;
+  fs::create_directories(fs::path(journal).parent_path(), failure);
+  if (failure || open_journal(journal)) return;
+  for (int number = 2; number < 100; ++number) {
+    const fs::path path(journal);
+    const std::string name =
+        path.stem().string() + "-" + std::to_string(number) + path.extension().string();
+    if (open_journal((path.parent_path() / name).string())) return;
+  }
+}
+
+TakeRecorder::~TakeRecorder() = default;
+
+bool TakeRecorder::open_journal(const std::string& path) {
+  auto journal = std::make_shared<Journal>(path);
+  if (journal->file < 0) return false;
+  std::error_code failure;
+  if (fs::file_size(path, failure) > 0 && !failure) {
+    // The first free number: nothing is ever written over.
+    std::string aside;
+    for (int number = 1; aside.empty() || fs::exists(aside, failure); ++number)
+      aside = path + "." + std::to_string(number);
+    fs::rename(path, aside, failure);
+    if (failure) return false;
+    journal->begun = true;  // the file that is locked has another name now, and stays
+    left_behind_ = aside;
+    journal = std::make_shared<Journal>(path);
+    if (journal->file < 0) return false;
+  }
+  journal_ = std::move(journal);
+  return true;
 }
 
 void TakeRecorder::start(const std::string& label, int inputs, int outputs) {
@@ -106,23 +153,21 @@ void TakeRecorder::change(Takes next) {
 }
 
 void TakeRecorder::write(const std::shared_ptr<const RecordedTake>& take) {
-  const bool first = !begun_;
-  begun_ = true;
-  const auto reason = std::make_shared<std::string>();
+  const auto failed = std::make_shared<bool>(false);
   Worker::get().run(
-      [take, first, reason, path = journal_] {
-        std::error_code failure;
-        fs::create_directories(fs::path(path).parent_path(), failure);
-        std::ofstream file(path, first ? std::ios::trunc : std::ios::app);
-        if (first) write_takes_header(file);
+      [take, failed, journal = journal_] {
+        *failed = true;
+        if (!journal) return;
+        std::ofstream file(journal->path, std::ios::app);
+        if (!std::exchange(journal->begun, true)) write_takes_header(file);
         write_take(*take, file);
         file.flush();
-        if (!file) *reason = path;
+        *failed = !file;
       },
-      [reason] {
-        if (!reason->empty())
+      [failed, journal = journal_] {
+        if (*failed)
           pd_error(nullptr, "gait.train: a take could not be written to %s; it is kept in memory",
-                   reason->c_str());
+                   journal ? journal->path.c_str() : "a journal");
       },
       blocking_);
 }

@@ -16,9 +16,13 @@ class TakeRecorder {
   static constexpr double longest_take = 600;  // seconds
   static constexpr int most_frames = 72000;    // of a take: 600 s at 120 frames per second
 
-  // `journal`: file that takes are written to as they end; what an earlier session left there is
-  // moved aside first. `blocking`: write at once instead of on the worker.
-  TakeRecorder(std::string journal, bool blocking);
+  // `journal`: file that takes are written to as they end. What an earlier session left there is
+  // moved aside first; while another box or another Pd writes there, this one's is numbered
+  // (NAME-2.takes). `blocking`: write at once instead of on the worker.
+  TakeRecorder(const std::string& journal, bool blocking);
+  ~TakeRecorder();
+  TakeRecorder(const TakeRecorder&) = delete;
+  TakeRecorder& operator=(const TakeRecorder&) = delete;
 
   // The file with takes of an earlier session; empty when there is none.
   const std::string& left_behind() const { return left_behind_; }
@@ -40,8 +44,13 @@ class TakeRecorder {
   void change(Takes next);
   void write(const std::shared_ptr<const RecordedTake>& take);
 
-  std::string journal_, left_behind_;
-  bool blocking_, begun_ = false;
+  // Opens and locks it; false when somebody else has it.
+  bool open_journal(const std::string& path);
+
+  std::string left_behind_;
+  struct Journal;
+  std::shared_ptr<Journal> journal_;  // the worker may still write; null: it cannot be written
+  bool blocking_;
   std::unique_ptr<RecordedTake> recording_;
   double begin_ = 0;
   Takes takes_;

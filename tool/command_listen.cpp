@@ -71,9 +71,10 @@ void listen(const ListenOptions& options) {
     throw Error(port + ": expected a body's motion, got " + std::to_string(received.packets) +
                 " packets and no frame");
   }
-  if (received.dropped > 0 || received.faulty > 0)
+  const unsigned long long dropped = received.dropped + gatherer.refused();
+  if (dropped > 0 || received.faulty > 0)
     std::fprintf(stderr, "gait listen: warning: %llu events were dropped, %llu messages faulty\n",
-                 static_cast<unsigned long long>(received.dropped),
+                 dropped,
                  static_cast<unsigned long long>(received.faulty));
   const Clip clip = recording.clip(options.output);
   write_bvh(bvh_from_clip(clip), output.part());

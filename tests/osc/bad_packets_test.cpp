@@ -138,6 +138,14 @@ TEST(BadPackets, a_sender_that_changes_its_rig_goes_on) {
     listened.say("/gait/quat", "sffff", {"joint" + std::to_string(i)}, {0, 0, 0, 1}, i * 0.001);
   EXPECT_LE(listened.gatherer.last(0).joints, osc::most_joints);
   EXPECT_GT(listened.gatherer.refused(), 0u);
+  listened.gatherer.end_old(5.02, listened);
+  const std::size_t frames = listened.frames.size();
+  listened.say("/gait/quat", "sffff", {"joint7"}, {0, 1, 0, 0}, 5.03);
+  listened.gatherer.end_old(5.1, listened);
+  EXPECT_EQ(listened.frames.size(), frames + 1);
+  // After a second's silence it may be another rig.
+  listened.say("/gait/quat", "sffff", {"joint4711"}, {0, 0, 0, 1}, 7);
+  EXPECT_EQ(listened.gatherer.last(0).joints, 1);
 }
 
 }  // namespace

@@ -160,6 +160,24 @@ TEST(Forms, performers_keep_their_numbers_until_they_are_silent_and_another_need
   EXPECT_EQ(listened.performers.back(), 0);
 }
 
+TEST(Forms, who_was_away_finds_his_number_free_while_there_are_others) {
+  Listened listened(3);
+  const auto frame = [&](std::uint64_t sender, double time) {
+    osc::PacketTemplate packet;
+    packet.add("/VMC/Ext/Bone/Pos", "sfffffff", {"Hips"});
+    packet.add("/VMC/Ext/OK", "i");
+    packet.set(std::vector<float>{0, 1, 0, 0, 0, 0, 1, 1});
+    listened.hear(packet.bytes(), time, sender);
+    return listened.performers.back();
+  };
+  EXPECT_EQ(frame(1, 0), 0);
+  EXPECT_EQ(frame(2, 1.5), 1);  // the first has been silent: there is room without his
+  EXPECT_EQ(frame(1, 2), 0);
+  EXPECT_EQ(frame(3, 2), 2);
+  EXPECT_EQ(frame(2, 3.2), 1);
+  EXPECT_EQ(frame(4, 4.3), 0);  // nobody's is left: who is silent for longest
+}
+
 TEST(Forms, bundles_of_the_future_are_of_now_and_deep_ones_are_not_followed) {
   Listened listened;
   osc::PacketTemplate packet;

@@ -80,6 +80,35 @@ TEST(JitterBuffer, without_delay_frames_leave_at_once) {
   for (const Left& frame : played(0, 60, 0.02, 0, 300)) EXPECT_LE(frame.waited, 0.0011);
 }
 
+// After a dropout a network hands over what it held back, all at once.
+TEST(JitterBuffer, evens_out_again_after_a_burst) {
+  osc::JitterBuffer buffer(1);
+  buffer.set_delay(0.05);
+  std::mt19937 random(3);
+  std::uniform_real_distribution<double> late(0, 0.015);
+  double time = 0;
+  for (int i = 0; i < 20; ++i) {
+    const float value = static_cast<float>(i - 20);
+    buffer.push(time += 6e-5, std::span(&value, 1));
+  }
+  std::vector<Left> left;
+  std::vector<std::pair<double, float>> arrivals;
+  for (int i = 0; i < 600; ++i) arrivals.emplace_back(0.1 + i / 60.0 + late(random), i);
+  std::size_t next = 0;
+  for (double now = 0; now < 11; now += 0.001) {
+    for (; next < arrivals.size() && arrivals[next].first <= now; ++next)
+      buffer.push(arrivals[next].first, std::span(&arrivals[next].second, 1));
+    for (auto frame = buffer.pop(now); !frame.empty(); frame = buffer.pop(now))
+      left.push_back({now, frame[0], 0});
+  }
+  EXPECT_EQ(left.size(), 620u);
+  EXPECT_LT(unevenness(left, 60), 0.5 * 0.015 / std::sqrt(12));
+}
+
+TEST(JitterBuffer, a_long_delay_holds_nothing_back_for_ever) {
+  for (const Left& frame : played(1, 120, 0.005, 0, 600)) EXPECT_LE(frame.waited, 1.01);
+}
+
 TEST(JitterBuffer, a_flood_pushes_the_oldest_out) {
   osc::JitterBuffer buffer(2);
   buffer.set_delay(10);
@@ -88,6 +117,7 @@ TEST(JitterBuffer, a_flood_pushes_the_oldest_out) {
     buffer.push(i * 1e-3, values);
   }
   EXPECT_EQ(buffer.waiting(), osc::JitterBuffer::most_frames);
+  EXPECT_EQ(buffer.lost(), 1000 - osc::JitterBuffer::most_frames);
   EXPECT_TRUE(buffer.pop(1).empty());
   const auto oldest = buffer.pop(100);
   ASSERT_EQ(oldest.size(), 2u);

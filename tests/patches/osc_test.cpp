@@ -40,19 +40,20 @@ double seconds_of_test(double usual) {
 class LivePatch : public Patch {
  public:
   const int port = free_port();
-  int osc, told;  // the box, and a [route] to add words to: `ticks` and `quit` are there
+  int model, osc, told;  // the box, and a [route] to add words to: `ticks` and `quit` are there
 
   explicit LivePatch(const std::string& flags = "")
       : remote_port_(free_port()), remote_("127.0.0.1", remote_port_) {
-    object("gait.model gait-demo -blocking");
+    model = object("gait.model gait-demo -blocking");
     osc = object("gait.osc gait-demo" + flags + " -blocking");
     record(osc, 2, "info");
     at_start({"listen " + std::to_string(port), "dump"}, osc);
     const int remote = object("netreceive -u " + std::to_string(remote_port_));
-    told = object("route quit ticks");
+    told = object("route quit ticks model");
     connect(remote, 0, told);
     connect(told, 0, message("; pd quit 0"));
-    connect(told, 2, osc);
+    connect(told, 2, model);
+    connect(told, 3, osc);
   }
   // Says it to [gait.osc], from outside Pd.
   void tell(const std::string& message) const {
@@ -427,9 +428,90 @@ TEST(Osc, a_flood_is_dropped_and_told_once_a_second_while_the_sound_goes_on) {
   if (can_watch()) {
     EXPECT_LT(after, before + 8);
   }
+  EXPECT_GE(said, 1);
   EXPECT_LE(said, seconds + 2);
+  EXPECT_GE(run.errors().size(), 1u);
   EXPECT_LE(static_cast<double>(run.errors().size()), seconds + 2) << run.log;
   EXPECT_GE(frames_after, frames_before + 28);
+}
+
+// Whoever stood in a T-pose before the show need not do so again when a model is learnt in it.
+TEST(Osc, a_new_model_finds_performers_calibrated_and_what_was_masked_masked) {
+  GAIT_NEEDS_PD();
+  LivePatch patch;
+  patch.record(patch.osc, 0, "in");
+  const HumanoidBody body = osc::humanoid_of(*demo()->body);
+  const CorpusWalk walk = unseen_walk("cool", 2);
+  const Eigen::MatrixXf inputs = inputs_of(walk);
+  const PdRun run = patch.run([&](const PdRun& running) {
+    const osc::Destination to("127.0.0.1", patch.port);
+    const StrangeSender sender(5);
+    patch.tell("hold 0.1");
+    for (int i = 0; i < 20; ++i) {
+      if (i == 10) patch.tell("calibrate t");
+      send(to, sender.packets(standing_pose(body, CalibrationPose::t)));
+      wait_until(now() + 1 / 30.0);
+    }
+    const auto poses = humanoid_poses(walk.clip, body);
+    for (int i = 0; i < 6; ++i) {
+      HumanoidPose pose = poses[0];
+      pose.turned.reset(index_of(Bone::left_lower_arm));
+      send(to, sender.packets(pose));
+      wait_until(now() + 1 / 30.0);
+    }
+    EXPECT_TRUE(running.wait_for("in", "mask LeftForeArm 0"));
+    patch.tell("model read " GAIT_PD_FOLDER "/gait-demo.gait");
+    wait_until(now() + 0.3);
+    for (std::size_t i = 0; i < 20; ++i) {
+      send(to, sender.packets(poses[i]));
+      wait_until(now() + 1 / 30.0);
+    }
+  });
+  EXPECT_TRUE(run.errors().empty()) << run.log;
+  EXPECT_EQ(count(run, "info", "ready"), 1);
+  EXPECT_EQ(count(run, "in", "mask LeftForeArm 0"), 1);
+  EXPECT_EQ(count(run, "in", "mask LeftForeArm 1"), 1);
+  const auto heard = run.numbers("in", "in");
+  ASSERT_EQ(heard.size(), 46u);
+  for (std::size_t frame = 0; frame < 20; ++frame)
+    for (int i = 0; i < inputs.rows(); ++i)
+      ASSERT_NEAR(heard[26 + frame][static_cast<std::size_t>(i)],
+                  inputs(i, static_cast<Eigen::Index>(frame)), 1e-3)
+          << frame << " " << i;
+}
+
+TEST(Osc, each_performer_has_a_calibration_and_avatars_of_his_own) {
+  GAIT_NEEDS_PD();
+  LivePatch patch(" -poly 2");
+  patch.record(patch.osc, 0, "in");
+  const int port = free_port();
+  patch.connect(patch.osc, 1, patch.osc);  // bodies go out as they came
+  const HumanoidBody body = osc::humanoid_of(*demo()->body);
+  int heard[2] = {0, 0};
+  const PdRun run = patch.run([&](const PdRun& running) {
+    osc::Receiver avatar({.port = port});
+    patch.tell("list 1 to localhost " + std::to_string(port) + " gait");
+    patch.tell("list 0 calibrate t");  // nobody is there
+    FullSuit suit;
+    const osc::Destination first("127.0.0.1", patch.port), second("127.0.0.1", patch.port);
+    const HumanoidPose pose = standing_pose(body, CalibrationPose::t);
+    for (int i = 0; i < 10; ++i) {
+      suit.send(pose, 0.1F, 0, first);
+      suit.send(pose, 0.7F, 0, second);
+      wait_until(now() + 1 / 30.0);
+    }
+    patch.tell("list 0 calibrate t");
+    patch.tell("close");
+    EXPECT_TRUE(running.wait_for("info", "list 1 stream 0"));
+    osc::MocapEvent event;
+    while (avatar.pop(event))
+      if (event.kind == osc::MocapKind::root) ++heard[event.place[2] > 0.5F ? 1 : 0];
+  });
+  ASSERT_EQ(run.errors().size(), 1u) << run.log;
+  EXPECT_NE(run.errors()[0].find("nobody sends"), std::string::npos) << run.log;
+  EXPECT_EQ(heard[0], 0);
+  EXPECT_EQ(heard[1], 10);
+  EXPECT_EQ(count(run, "info", "list 0 stream 0"), 1);
 }
 
 TEST(Osc, a_bone_that_stops_is_masked_when_its_frame_is_due_and_taken_in_again) {
@@ -479,7 +561,7 @@ TEST(Osc, takes_what_other_programs_send_and_finds_out_which_form_it_is) {
     }
     const std::string to = "oscsend localhost " + std::to_string(patch.port);
     EXPECT_EQ(std::system((to + " /gait/frame " + types + numbers).c_str()), 0);
-    wait_until(now() + 0.2);
+    wait_until(now() + 1.2);  // each oscsend is another sender, and there is room for one
     EXPECT_EQ(std::system((to + " /gait/frame fff 1 2 3").c_str()), 0);     // of another model
     EXPECT_EQ(std::system((to + " /gait/frame s no").c_str()), 0);          // of another type
     EXPECT_EQ(std::system((to + " /somebody/else iis 1 2 x").c_str()), 0);  // not ours
@@ -527,15 +609,23 @@ TEST(Osc, hears_gait_stream_in_every_form_it_speaks) {
     for (const std::string& form : forms)
       if (line.ends_with(" form " + form)) performer_of[form] = "performer" + line.substr(5, 1);
   ASSERT_EQ(performer_of.size(), forms.size()) << run.log;
+  // A busy machine may hold a sender up in the middle of a frame, which then counts as two.
   for (const std::string& form : forms)
-    EXPECT_EQ(count(run, performer_of[form], "in "), inputs.cols()) << form;
+    EXPECT_NEAR(count(run, performer_of[form], "in "), static_cast<double>(inputs.cols()), 2)
+        << form;
   const auto heard = run.numbers(performer_of["gait"], "in");
-  ASSERT_EQ(heard.size(), static_cast<std::size_t>(inputs.cols()));
-  for (std::size_t frame = 0; frame < heard.size(); ++frame)
-    for (int i = 0; i < inputs.rows(); ++i)
-      ASSERT_NEAR(heard[frame][static_cast<std::size_t>(i)],
-                  inputs(i, static_cast<Eigen::Index>(frame)), 1e-3)
-          << frame << " " << i;
+  std::size_t at = 0;
+  for (int frame = 0; frame < inputs.cols(); ++frame) {
+    const auto same = [&](const std::vector<double>& values) {
+      double worst = 0;
+      for (int i = 0; i < inputs.rows(); ++i)
+        worst = std::max(worst, std::abs(values[static_cast<std::size_t>(i)] -
+                                         static_cast<double>(inputs(i, frame))));
+      return worst < 1e-3;
+    };
+    while (at < heard.size() && !same(heard[at])) ++at;
+    ASSERT_LT(at, heard.size()) << "frame " << frame << " was not heard, or too late";
+  }
 }
 
 #endif

@@ -160,6 +160,22 @@ TEST(FrameClock, a_pose_that_arrives_a_little_early_does_not_wait_for_the_next) 
   }
 }
 
+// After a dropout a network hands over what it held back, all at once.
+TEST(FrameClock, a_burst_at_the_beginning_is_forgotten_within_two_seconds) {
+  std::mt19937 random(10);
+  std::uniform_real_distribution<double> delay(0, 0.003);
+  Stream stream(30);
+  for (int i = 0; i < 12; ++i) stream.push(0.001 * i, i / 30.0);
+  std::size_t before = 0;
+  for (int i = 1; i < 300; ++i) {
+    stream.push(0.02 + i / 30.0 + delay(random), 0.4 + i / 30.0);
+    if (i > 60) {
+      ASSERT_EQ(stream.frames.size(), before + 1) << i;
+    }
+    before = stream.frames.size();
+  }
+}
+
 TEST(FrameClock, a_sender_that_changes_to_another_rate_is_resampled_again) {
   Stream stream(30);
   for (int i = 0; i < 60; ++i) stream.push(i / 30.0);

@@ -14,12 +14,11 @@ namespace {
 constexpr double snap_seconds =
     0.55e-3;                  // half a millisecond, what whole-millisecond times miss by
 constexpr double pull = 0.1;  // share of the difference by which a pose moves the clock
-// A sender keeps the model's rate when its mean interval is so near the period; it has left it when
-// it is so far away.
+// A sender keeps the model's rate when its mean interval is so near the period, and has left it
+// when it is so far from it; shares of the period.
 constexpr double same_rate = 0.02, other_rate = 0.05;
 constexpr double same_rate_tolerance = 0.3;  // of a period
 constexpr int intervals_to_know = 8;
-constexpr double interval_gain = 0.02;
 
 bool all_finite(std::span<const Eigen::Quaternionf> rotations,
                 std::span<const float> plain) noexcept {
@@ -74,20 +73,22 @@ FrameClock::Arrival FrameClock::push(double time, std::span<const Eigen::Quatern
   return Arrival::accepted;
 }
 
+// A frame that was lost makes an interval of two: it says nothing of the rate. A burst is over when
+// the latest poses no longer hold it.
 void FrameClock::measure(double passed) noexcept {
-  if (intervals_ < intervals_to_know) {
-    ++intervals_;
-    interval_ += (passed - interval_) / intervals_;
-  } else {  // a frame that was lost, or a burst, weighs no more than a little
-    interval_ += interval_gain * (std::clamp(passed, 0.5 * interval_, 1.5 * interval_) - interval_);
-  }
+  lately_[static_cast<std::size_t>(intervals_++ % most_intervals)] = {
+      passed, std::max(1.0, std::round(passed / period_))};
   if (intervals_ < intervals_to_know) return;
-  const double off = std::abs(interval_ - period_);
-  const double usual = usual_tolerance();
-  if (off < same_rate * period_)
-    tolerance_ = std::max(usual, same_rate_tolerance * period_);
-  else if (off > other_rate * period_)
-    tolerance_ = usual;
+  Interval sum;
+  for (int i = 0; i < std::min(intervals_, most_intervals); ++i) {
+    sum.seconds += lately_[static_cast<std::size_t>(i)].seconds;
+    sum.frames += lately_[static_cast<std::size_t>(i)].frames;
+  }
+  const double off = std::abs(sum.seconds / sum.frames / period_ - 1);
+  if (off < same_rate)
+    tolerance_ = std::max(usual_tolerance(), same_rate_tolerance * period_);
+  else if (off > other_rate)
+    tolerance_ = usual_tolerance();
 }
 
 void FrameClock::keep(double time, std::span<const Eigen::Quaternionf> rotations,
@@ -126,7 +127,6 @@ bool FrameClock::next(std::span<Eigen::Quaternionf> rotations, std::span<float> 
 void FrameClock::begin_run() noexcept {
   poses_ = 0;
   intervals_ = 0;
-  interval_ = 0;
   tolerance_ = usual_tolerance();
 }
 

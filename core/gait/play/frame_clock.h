@@ -13,6 +13,7 @@
 #pragma once
 
 #include <Eigen/Geometry>
+#include <array>
 #include <span>
 #include <vector>
 
@@ -63,8 +64,13 @@ class FrameClock {
   double usual_tolerance() const noexcept;
 
   double period_, longest_gap_, tolerance_;
-  double interval_ = 0;  // between poses, as it was lately
-  int intervals_ = 0;    // how many that is of
+  // Between the latest poses: how long, and how many of the model's frames, as near as that may be.
+  static constexpr int most_intervals = 32;
+  struct Interval {
+    double seconds = 0, frames = 0;
+  };
+  std::array<Interval, most_intervals> lately_;
+  int intervals_ = 0;  // since the beginning of the run
   Pose before_, latest_;
   int poses_ = 0;         // how many of before_ and latest_ hold a pose of this run: 0, 1 or 2
   double tick_ = 0;       // time of the next frame

@@ -45,13 +45,15 @@ bool CapturedFrame::empty() const noexcept {
 FrameGatherer::FrameGatherer(int performers) : slots_(static_cast<std::size_t>(performers)) {}
 
 int FrameGatherer::slot_of(const MocapEvent& event) noexcept {
-  int free = -1;
+  int free = -1;  // nobody's, or else that of who is silent for longest
   for (int i = 0; i < performers(); ++i) {
-    Slot& slot = slots_[i];
+    const Slot& slot = slots_[i];
     if (slot.used && slot.frame.sender == event.sender && slot.frame.stream == event.stream &&
         slot.frame.form == event.form)
       return i;
-    if (free < 0 && (!slot.used || event.time - slot.seen > silence)) free = i;
+    if (slot.used && event.time - slot.seen <= silence) continue;
+    const auto since = [this](int at) { return slots_[at].used ? slots_[at].seen : -1e300; };
+    if (free < 0 || since(i) < since(free)) free = i;
   }
   if (free < 0 || event.kind == MocapKind::edge) return -1;
   Slot& slot = slots_[free];
@@ -118,6 +120,7 @@ void FrameGatherer::end_old(double now, FrameSink& sink) noexcept {
 
 void FrameGatherer::apply(Slot& slot, const MocapEvent& event) noexcept {
   CapturedFrame& frame = slot.frame;
+  if (event.time - slot.seen > silence) frame.joints = 0;  // may have another rig by now
   slot.seen = event.time;
   if (frame.empty() && !frame.root_told) frame.time = event.time;
   switch (event.kind) {

@@ -2,13 +2,12 @@
 #include <algorithm>
 #include <cmath>
 
+#include "gait/osc/frame_gatherer.h"
 #include "gait/osc/mocap_reader.h"
 
 namespace gait::osc {
 
 namespace {
-
-constexpr int most_values = 1024;  // of a frame
 
 bool name_in(const OscMessage& message, int i, std::array<char, MocapEvent::name_size>& name,
              bool may_be_empty = false) {

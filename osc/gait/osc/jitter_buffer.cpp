@@ -11,6 +11,7 @@ namespace {
 constexpr double hole = 0.65;      // of a period
 constexpr double scattered = 2.5;  // times the arrivals' standard deviation
 constexpr int arrivals_to_know = 8;
+constexpr int most_holes = 4;        // one after another
 constexpr double longest_gap = 0.5;  // seconds; after it the clock begins anew
 
 }  // namespace
@@ -49,7 +50,13 @@ void JitterBuffer::fit_line() noexcept {
 void JitterBuffer::push(double time, std::span<const float> values) noexcept {
   const double gap = arrivals_ == 0 ? 0 : time - times_[latest_];
   if (gap > longest_gap || gap < 0) arrivals_ = 0;
-  const double number = arrivals_ == 0 ? 0 : number_after(time);
+  double number = arrivals_ == 0 ? 0 : number_after(time);
+  // Hole after hole: it is the line that is wrong. It was learnt from a burst, or the rate changed.
+  holes_ = arrivals_ > 0 && number > numbers_[latest_] + 1 ? holes_ + 1 : 0;
+  if (holes_ == most_holes) {
+    number = 0;
+    arrivals_ = holes_ = 0;
+  }
   latest_ = arrivals_ == 0 ? 0 : (latest_ + 1) % most_arrivals;
   arrivals_ = std::min(arrivals_ + 1, most_arrivals);
   numbers_[latest_] = number;
@@ -58,6 +65,7 @@ void JitterBuffer::push(double time, std::span<const float> values) noexcept {
   if (count_ == most_frames) {
     first_ = (first_ + 1) % most_frames;
     --count_;
+    ++lost_;
   }
   const int at = (first_ + count_) % most_frames;
   const auto size = std::min(values.size(), static_cast<std::size_t>(values_));

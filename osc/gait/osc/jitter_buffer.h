@@ -9,7 +9,7 @@ namespace gait::osc {
 
 class JitterBuffer {
  public:
-  static constexpr int most_frames = 64;
+  static constexpr int most_frames = 256;  // a second at 240 a second
 
   // `values` in a frame.
   explicit JitterBuffer(int values);
@@ -23,13 +23,15 @@ class JitterBuffer {
   double arrival() const noexcept { return arrival_; }
   void reset() noexcept { count_ = 0, arrivals_ = 0; }  // of frames and of the sender's clock
   int waiting() const noexcept { return count_; }
+  // Frames that went because it was full, since the beginning.
+  int lost() const noexcept { return lost_; }
 
  private:
   int values_;
   double delay_ = 0;
   std::vector<float> frames_;
   double due_[most_frames] = {}, arrived_[most_frames] = {}, arrival_ = 0;
-  int first_ = 0, count_ = 0;
+  int first_ = 0, count_ = 0, lost_ = 0;
 
   // The sender's clock as it is seen through jitter: a line through the latest arrivals over their
   // numbers, where frames that were lost have numbers too.
@@ -42,7 +44,7 @@ class JitterBuffer {
   void fit_line() noexcept;
   Line line_;
   double numbers_[most_arrivals] = {}, times_[most_arrivals] = {};
-  int arrivals_ = 0, latest_ = 0;
+  int arrivals_ = 0, latest_ = 0, holes_ = 0;
 };
 
 }  // namespace gait::osc

@@ -67,8 +67,23 @@ LiveBody::LiveBody(std::shared_ptr<const Model> model)
 }
 
 void LiveBody::reset() noexcept {
-  sender_.reset();
   calibration_.reset();
+  calibrate_.reset();
+  standing_.reset();
+  forget_pose();
+}
+
+void LiveBody::take_over(const LiveBody& other) noexcept {
+  sender_ = other.sender_;
+  calibrate_ = other.calibrate_;
+  calibrate_until_ = other.calibrate_until_;
+  standing_ = other.standing_;
+  if (standing_ && humanoid_)
+    calibration_.set(standing_->sender, humanoid_->calibration(standing_->pose));
+}
+
+void LiveBody::forget_pose() noexcept {
+  sender_.reset();
   filter_.reset();
   heading_.reset();
   std::fill(seen_.begin(), seen_.end(), never);
@@ -85,11 +100,14 @@ bool LiveBody::take(const CapturedFrame& captured) noexcept {
 }
 
 bool LiveBody::take_humanoid(const CapturedFrame& captured) noexcept {
-  if (!humanoid_ || !sender_.take(captured)) return false;
+  if (!humanoid_) return false;
+  if (captured.time > calibrate_until_) calibrate_.reset();
+  if (calibrate_) sender_.judge_axes_again();
+  if (!sender_.take(captured)) return false;
   if (calibrate_) {
-    sender_.judge_axes_again();
     // Held until the hips are known: a frame may have come in pieces.
     if (calibration_.set(sender_.world(), humanoid_->calibration(*calibrate_))) {
+      standing_ = Standing{sender_.world(), *calibrate_};
       calibrate_.reset();
       filter_.reset();
       heading_.reset();
@@ -119,7 +137,7 @@ bool LiveBody::take_humanoid(const CapturedFrame& captured) noexcept {
 }
 
 void LiveBody::find_joints(const CapturedFrame& captured) noexcept {
-  if (captured.joints == named_known_) return;
+  if (captured.joints == named_known_ && !captured.rig_changed) return;
   named_known_ = captured.joints;
   const Skeleton& skeleton = model_->body->skeleton;
   for (std::size_t joint = 0; joint < named_of_.size(); ++joint) {

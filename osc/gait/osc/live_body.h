@@ -35,16 +35,24 @@ class LiveBody {
  public:
   explicit LiveBody(std::shared_ptr<const Model> model);
 
-  // The next frame that comes is the calibration pose. Own form: nothing to calibrate.
-  void calibrate(CalibrationPose pose) noexcept { calibrate_ = pose; }
+  // The next frame that comes is the calibration pose, if it comes by then. Own form: nothing to
+  // calibrate.
+  void calibrate(CalibrationPose pose, double until = 1e300) noexcept {
+    calibrate_ = pose;
+    calibrate_until_ = until;
+  }
   bool calibrated() const noexcept { return calibration_.is_set(); }
   void set_yaw(double radians) noexcept { yaw_ = radians; }
   // Seconds that what stops coming is held.
   void set_hold(double seconds) noexcept { hold_ = seconds; }
   // Hz at rest of the 1-euro filter; 0: off.
   void set_smoothing(double hertz) noexcept { filter_.set_cutoff(hertz); }
-  // Another sender in this place: nothing of the last one holds.
+  // The same rig by another way (port, program): its calibration holds, its pose is told anew.
+  void forget_pose() noexcept;
+  // Another performer: nothing of the last one holds.
   void reset() noexcept;
+  // The same performer as on another model's body, calibrated as he was there.
+  void take_over(const LiveBody& other) noexcept;
 
   // False when the frame tells nothing of this model (values of another count).
   bool take(const CapturedFrame& captured) noexcept;
@@ -60,7 +68,6 @@ class LiveBody {
   bool take_values(const CapturedFrame& captured) noexcept;
   void find_joints(const CapturedFrame& captured) noexcept;
   void finish(const CapturedFrame& captured) noexcept;
-  void mark(int joint, double seen) noexcept;
 
   std::shared_ptr<const Model> model_;
   std::optional<HumanoidBody> humanoid_;  // none without a body that has legs
@@ -73,6 +80,12 @@ class LiveBody {
   SenderPose sender_;
   SenderCalibration calibration_;
   std::optional<CalibrationPose> calibrate_;
+  double calibrate_until_ = 0;
+  struct Standing {
+    HumanoidPose sender;
+    CalibrationPose pose = CalibrationPose::t;
+  };
+  std::optional<Standing> standing_;  // as calibrated last
   double yaw_ = 0, hold_ = 0.5;
   RotationFilter filter_;
   RecentHeading heading_;

@@ -57,7 +57,8 @@ Receiver::Receiver(const ReceiverSettings& settings)
     throw Error("expected a port from 0 to 65535, got " + std::to_string(settings.port));
   socket_ = open_socket(settings);
   port_ = port_of(socket_);
-  if (pipe(wake_) != 0) {
+  // A program that Pd starts must not hold it open.
+  if (pipe2(wake_, O_CLOEXEC) != 0) {
     close(socket_);
     throw Error(std::string("cannot open a pipe: ") + std::strerror(errno));
   }
@@ -65,8 +66,10 @@ Receiver::Receiver(const ReceiverSettings& settings)
 }
 
 Receiver::~Receiver() {
-  close(wake_[1]);
+  const char end = 0;
+  while (write(wake_[1], &end, 1) < 0 && errno == EINTR) continue;
   thread_.join();
+  close(wake_[1]);
   close(wake_[0]);
   close(socket_);
 }
@@ -83,7 +86,7 @@ Received Receiver::received() const noexcept {
 
 void Receiver::run() {
   std::vector<std::byte> buffer(largest_packet);
-  pollfd watched[2] = {{socket_, POLLIN, 0}, {wake_[0], 0, 0}};
+  pollfd watched[2] = {{socket_, POLLIN, 0}, {wake_[0], POLLIN, 0}};
   while (true) {
     if (poll(watched, 2, -1) < 0 && errno != EINTR) return;
     if (watched[1].revents != 0) return;

@@ -54,7 +54,7 @@ class Receiver final : EventSink {
   MocapReader reader_;
   EventRing<MocapEvent> ring_;
   int socket_ = -1, port_ = 0;
-  int wake_[2] = {-1, -1};  // a pipe: its closing ends the thread
+  int wake_[2] = {-1, -1};  // a pipe: a byte in it ends the thread
   Arrival arrival_;
   std::atomic<std::uint64_t> packets_{0}, messages_{0}, unknown_{0}, faulty_{0}, dropped_{0};
   std::thread thread_;

@@ -1,6 +1,9 @@
 #include "gait/osc/recording.h"
 
+#include <algorithm>
 #include <cmath>
+#include <numeric>
+#include <span>
 
 #include "gait/error.h"
 
@@ -65,7 +68,15 @@ void Recording::add_named(const CapturedFrame& frame) {
 
 double Recording::frame_rate() const {
   if (frames() < 2 || !(times_.back() > times_.front())) return 30;
-  const double rate = (frames() - 1) / (times_.back() - times_.front());
+  // The usual interval: over a pause in the stream the walk goes on where it stopped. Half the
+  // intervals are averaged, for arrivals tremble.
+  std::vector<double> intervals;
+  for (std::size_t i = 1; i < times_.size(); ++i) intervals.push_back(times_[i] - times_[i - 1]);
+  std::ranges::sort(intervals);
+  const std::size_t quarter = intervals.size() / 4;
+  const std::span<const double> usual(intervals.begin() + quarter, intervals.end() - quarter);
+  const double rate = static_cast<double>(usual.size()) /
+                      std::max(1e-6, std::accumulate(usual.begin(), usual.end(), 0.0));
   const double whole = std::round(rate);
   return whole > 0 && std::abs(rate - whole) < 0.01 * whole ? whole : rate;
 }

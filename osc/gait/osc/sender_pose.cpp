@@ -14,7 +14,8 @@ Eigen::Quaterniond rotation_of(const std::array<float, 4>& q) {
 Eigen::Vector3d place_of(const std::array<float, 3>& p) { return {p[0], p[1], p[2]}; }
 
 // Bridges send bones relative to their parents or in the world, as the program behind them is set,
-// and do not say which. A head within half a metre of its parent is told relative to it.
+// and do not say which. A head further than half a metre from nothing is not told relative to its
+// parent; one that is nearer may have come there on a stage.
 bool told_in_world(const HumanoidPose& told) {
   constexpr double longest_neck = 0.5;
   for (const Bone bone : {Bone::head, Bone::left_lower_leg, Bone::right_lower_leg}) {
@@ -72,9 +73,10 @@ bool SenderPose::take(const CapturedFrame& frame) noexcept {
     root_ = mirrored(place_of(frame.root));
     root_rotation_ = mirrored(rotation_of(frame.root_rotation));
   }
+  in_world_ = in_world_ || (frame.form != MocapForm::vmc && told_in_world(told_));
   if (frame.form == MocapForm::kinect)
     take_places(frame);
-  else if (frame.form != MocapForm::vmc && told_in_world(told_))
+  else if (in_world_)
     take_world(frame);
   else
     take_local(frame);

@@ -38,6 +38,7 @@ class SenderPose {
   Eigen::Vector3d root_ = Eigen::Vector3d::Zero();
   Eigen::Quaterniond root_rotation_ = Eigen::Quaterniond::Identity();
   bool axes_judged_ = false, places_known_ = false;
+  bool in_world_ = false;  // rotations and places are in the world, not relative to the parent
   double x_sign_ = 1, y_sign_ = 1;
 };
 
