@@ -166,17 +166,17 @@ TEST(HandingOver, does_not_jump_when_the_input_of_built_in_walks_stops_and_retur
   EXPECT_LE(ratio(found.root_returns.speeds, found.root_training.speeds), 1.1);
 }
 
-// A root that follows reconstructed feet is rougher than a captured one (see the figures):
-// hand-overs are held to what it does while poses come.
+// A root that follows reconstructed feet is a little rougher than a captured one, for the legs are
+// a few degrees off and the feet with them: smoother, and they would slide more than captured ones.
 TEST(HandingOver, does_not_jump_when_the_input_of_captured_walks_stops_and_returns) {
   GAIT_NEEDS_SHARED_DATA("bandai-namco-2");
   const HandOvers found = hand_overs(captured_walks(), 2);
   expect_no_jumps(found);
   std::printf("root while poses come: %.2f of training's acceleration\n",
               ratio(found.root_fed.accelerations, found.root_training.accelerations));
-  expect_within("root against poses that come, input lost", found.root_losses, found.root_fed, 1.1);
-  expect_within("root against poses that come, input back", found.root_returns, found.root_fed,
-                1.15);
+  EXPECT_LE(ratio(found.root_fed.accelerations, found.root_training.accelerations), 1.35);
+  expect_within("root against training, input lost", found.root_losses, found.root_training, 1.35);
+  expect_within("root against training, input back", found.root_returns, found.root_training, 1.5);
 }
 
 const InputPoses& some_inputs() {

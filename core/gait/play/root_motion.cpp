@@ -23,7 +23,19 @@ constexpr double speed_seconds = 0.015;
 constexpr double travel_seconds = 0.5;
 constexpr double height_seconds = 0.1 / 3;  // 95 % of a height error is gone after 100 ms
 constexpr double deepest = 0.008;           // m: no point sinks further, however fast the walk
+constexpr float fastest_start = 3.0f;       // m/s: faster than 10 km/h nobody walks
+constexpr float starting_seconds = 0.3f;    // until pins are believed enough to be smoothed
+constexpr float brisk = 1.4f;               // m/s
+constexpr double recovery_seconds = 0.2;    // what the root is behind its pins is made up for in
+constexpr double locked_seconds = 0.02;     // of lag in speed where legs take it up
 constexpr double same_point = 0.005;        // m
+
+// How hard the root is pushed after its pins: m/s², and more per metre that it is behind. Captured
+// hips of clean walks reach 14 m/s² in one frame of a thousand, the built-in ones' 6.
+struct Push {
+  float least, per_metre;
+};
+constexpr Push push_alone{12.0f, 400.0f}, push_with_locked_feet{5.0f, 200.0f};
 
 float gain(double frame_rate, double seconds) {
   return static_cast<float>(1 - std::exp(-1 / (frame_rate * seconds)));
@@ -54,6 +66,8 @@ RootMotion::RootMotion(const Skeleton& skeleton, const JointRoles& roles, double
   speed_gain_ = gain(frame_rate, speed_seconds);
   travel_gain_ = gain(frame_rate, travel_seconds);
   height_gain_ = gain(frame_rate, height_seconds);
+  recovery_gain_ = gain(frame_rate, recovery_seconds);
+  locked_gain_ = gain(frame_rate, locked_seconds);
   add_points(skeleton, roles.hips, roles.right.foot, Foot::right);
   add_points(skeleton, roles.hips, roles.left.foot, Foot::left);
   reset();
@@ -90,12 +104,16 @@ void RootMotion::add_points(const Skeleton& skeleton, int hips, int foot_joint, 
 
 void RootMotion::reset(const Eigen::Vector3f& place) noexcept {
   frames_ = 0;
-  position_ = place.cast<double>();
+  position_ = pinned_ = place.cast<double>();
   velocity_.setZero();
+  pinned_velocity_.setZero();
+  moved_.setZero();
+  pinned_moved_.setZero();
   travel_.setZero();
   walking_ = 0;
   for (Point& point : points_) {
     point.place.setZero();
+    point.before.setZero();
     point.smoothed.setZero();
     point.weight = 0;
   }
@@ -103,15 +121,25 @@ void RootMotion::reset(const Eigen::Vector3f& place) noexcept {
 
 Eigen::Vector3f RootMotion::advance(std::span<const Eigen::Quaternionf> pose,
                                     float heading) noexcept {
-  if (!place_points(pose, heading)) return position();
+  if (!place_points(pose, heading)) {
+    for (Point& point : points_) point.before = point.place;
+    moved_.setZero();
+    pinned_moved_.setZero();
+    return position();
+  }
   if (frames_++ == 0) {
-    position_.y() = -lowest_;
+    for (Point& point : points_) point.before = point.place;
+    position_.y() = pinned_.y() = -lowest_;
     return position();
   }
   update_speeds();
   update_travel();
   weigh_points();
+  const Eigen::Vector3d before = position_, pinned_before = pinned_;
   move();
+  pinned_moved_ = (pinned_ - pinned_before).cast<float>();
+  follow();
+  moved_ = (position_ - before).cast<float>();
   return position();
 }
 
@@ -170,7 +198,7 @@ void RootMotion::weigh_points() noexcept {
     point.weight_before = point.weight;
     // The weight holds the score until the best one is known.
     point.weight = -point.smoothed.dot(direction) - cost_of_height * (point.place.y() - lowest_) -
-                   cost_of_disagreement * horizontal(point.smoothed + velocity_).norm();
+                   cost_of_disagreement * horizontal(point.smoothed + pinned_velocity_).norm();
     best = std::max(best, point.weight);
   }
   float sum = 0;
@@ -188,14 +216,44 @@ void RootMotion::move() noexcept {
   Eigen::Vector3f wanted = Eigen::Vector3f::Zero();
   for (const Point& point : points_)
     wanted -= (point.weight + of_last * (point.weight_before - point.weight)) * point.speed;
-  Eigen::Vector3f change = wanted - velocity_;
-  const float limit = strongest_push * period_, along = horizontal(change).norm();
+  Eigen::Vector3f change = wanted - pinned_velocity_;
   // The first speed along the ground comes from nowhere: there is nothing to be gentle with.
-  if (frames_ > 2 && along > limit) change.x() *= limit / along, change.z() *= limit / along;
-  change.y() = std::clamp(change.y(), -limit, limit);
+  const bool first = frames_ == 2;
+  const float limit = first ? fastest_start : strongest_push * period_;
+  const float along = horizontal(change).norm();
+  if (along > limit) change.x() *= limit / along, change.z() *= limit / along;
+  change.y() = std::clamp(change.y(), -strongest_push * period_, strongest_push * period_);
+  pinned_velocity_ += change;
+  pinned_ += (pinned_velocity_ * period_).cast<double>();
+  pinned_.y() -= height_gain_ * (pinned_.y() + lowest_);
+  pinned_.y() = std::max(pinned_.y(), -static_cast<double>(lowest_) - deepest);
+}
+
+bool RootMotion::starting() const noexcept {
+  return static_cast<float>(frames_ - 1) * period_ <= starting_seconds;
+}
+
+void RootMotion::follow() noexcept {
+  if (starting()) {
+    position_ = pinned_;
+    velocity_ = pinned_moved_ / period_;
+    return;
+  }
+  const Eigen::Vector3f behind = (pinned_ - position_).cast<float>() - pinned_moved_;
+  Eigen::Vector3f change = (pinned_moved_ + recovery_gain_ * behind) / period_ - velocity_;
+  if (feet_locked_) change *= locked_gain_;
+  Push push = feet_locked_ ? push_with_locked_feet : push_alone;
+  // Hips are thrown the harder the faster the walk, by the square of its speed.
+  if (feet_locked_) push.least *= std::max(1.0f, travel_.squaredNorm() / (brisk * brisk));
+  const auto limit = [&](float distance) {
+    return std::min(push.least + push.per_metre * distance, strongest_push) * period_;
+  };
+  const float along = horizontal(change).norm(), most = limit(horizontal(behind).norm());
+  if (along > most) change.x() *= most / along, change.z() *= most / along;
+  const float upward = limit(std::abs(behind.y()));
+  change.y() = std::clamp(change.y(), -upward, upward);
   velocity_ += change;
   position_ += (velocity_ * period_).cast<double>();
-  position_.y() -= height_gain_ * (position_.y() + lowest_);
   position_.y() = std::max(position_.y(), -static_cast<double>(lowest_) - deepest);
 }
 
@@ -204,6 +262,18 @@ float RootMotion::share_of(Foot foot) const noexcept {
   for (const Point& point : points_)
     if (point.foot == foot) share += point.weight;
   return share;
+}
+
+RootMotion::Sole RootMotion::sole(Foot foot) const noexcept {
+  Sole sole;
+  sole.height = std::numeric_limits<float>::max();
+  for (const Point& point : points_) {
+    const float height = static_cast<float>(position_.y()) + point.place.y();
+    if (point.foot != foot || height >= sole.height) continue;
+    const Eigen::Vector3f moved = point.place - point.before;
+    sole = {height, moved_ + moved, pinned_moved_ + moved};
+  }
+  return sole;
 }
 
 }  // namespace gait

@@ -14,6 +14,11 @@
 // or sideways. Ground is at y = 0; the lowest point comes to it within 100 ms, and is never more
 // than 8 mm below it.
 //
+// Pins jolt where poses were mixed or reconstructed, people do not. So the root follows its pinned
+// path with limited acceleration, and makes up later for what it could not do at once: the path
+// keeps its length. What it lags behind, feet slide; where a FootLock holds them, the legs take it
+// up and the root may be smoother still.
+//
 // Units: metres, seconds, radians; Y up. Nothing allocates after construction.
 #pragma once
 
@@ -44,11 +49,22 @@ class RootMotion {
   // ground.
   void reset(const Eigen::Vector3f& place = Eigen::Vector3f::Zero()) noexcept;
 
+  // Whether the legs take up what a smoother root leaves (FootLock). Not at first; at any frame.
+  void set_feet_locked(bool locked) noexcept { feet_locked_ = locked; }
+
   Eigen::Vector3f position() const noexcept { return position_.cast<float>(); }
   Eigen::Vector3f velocity() const noexcept { return velocity_; }  // of the hips, m/s
 
   // How much of the pin lies on this foot, 0 to 1: 1 while it alone carries the body.
   float share_of(Foot foot) const noexcept;
+
+  // A foot's lowest point in the world: how high it is, and how it moved with the last frame.
+  struct Sole {
+    float height = 0;                                  // above the ground, m
+    Eigen::Vector3f moved = Eigen::Vector3f::Zero();   // m
+    Eigen::Vector3f pinned = Eigen::Vector3f::Zero();  // the same had the root followed at once
+  };
+  Sole sole(Foot foot) const noexcept;
 
  private:
   struct Link {                   // a joint on the way from the hips to a toe
@@ -75,17 +91,23 @@ class RootMotion {
   void update_travel() noexcept;
   void weigh_points() noexcept;
   void move() noexcept;
+  void follow() noexcept;
+  bool starting() const noexcept;
 
   int joints_;
-  float period_, speed_gain_, travel_gain_, height_gain_;
+  float period_, speed_gain_, travel_gain_, height_gain_, recovery_gain_, locked_gain_;
   std::vector<Link> links_;
   std::vector<Point> points_;
   int frames_ = 0;                                    // since the (re)start
   float lowest_ = 0;                                  // height of the lowest point against the hips
   Eigen::Vector3f travel_ = Eigen::Vector3f::Zero();  // slow velocity, by height alone
   float walking_ = 0;  // 0 standing, 1 walking: how much travel_ is to be believed
-  Eigen::Vector3f velocity_ = Eigen::Vector3f::Zero();
-  Eigen::Vector3d position_ = Eigen::Vector3d::Zero();  // double: an hour's walk is kilometres
+  bool feet_locked_ = false;
+  // By the pins, and as shown. Places in double: an hour's walk is kilometres.
+  Eigen::Vector3f pinned_velocity_ = Eigen::Vector3f::Zero(), velocity_ = Eigen::Vector3f::Zero();
+  Eigen::Vector3d pinned_ = Eigen::Vector3d::Zero(), position_ = Eigen::Vector3d::Zero();
+  // With the last frame.
+  Eigen::Vector3f pinned_moved_ = Eigen::Vector3f::Zero(), moved_ = Eigen::Vector3f::Zero();
 };
 
 }  // namespace gait
