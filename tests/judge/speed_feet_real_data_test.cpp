@@ -9,11 +9,12 @@
 #include <ctime>
 
 #include "gait/judge/foot_slide.h"
+#include "gait/judge/walk_recorder.h"
 #include "gait/learn/speed_space.h"
 #include "gait/model/body_pose.h"
 #include "gait/motion/contacts.h"
 #include "gait/motion/kinematics.h"
-#include "gait/play/root_motion.h"
+#include "gait/play/foot_lock.h"
 #include "judge/captured_speeds.h"
 #include "shared_data.h"
 
@@ -34,28 +35,24 @@ struct Seen {
 Seen seen(SpeedWalker& walking, double frame_rate, double seconds) {
   const Body& body = captured().body;
   const JointRoles roles = body_roles(body);
-  RootMotion root(body.skeleton, roles, frame_rate);
+  WalkRecorder recorder(body, frame_rate);
   for (int i = 0; i < 2 * frame_rate; ++i) {
     walking.advance(1 / frame_rate);
-    root.advance(walking.pose());
+    recorder.lead_in(walking.pose());
   }
   const int frames = static_cast<int>(seconds * frame_rate);
   Seen result;
-  result.clip = body_clip(body, "walked", frame_rate, frames);
-  std::vector<Eigen::Quaterniond> pose(body.skeleton.joints.size());
   double before = walking.phase();
   for (int frame = 0; frame < frames; ++frame) {
     walking.advance(1 / frame_rate);
-    const Eigen::Vector3d hips = root.advance(walking.pose()).cast<double>();
-    std::transform(walking.pose().begin(), walking.pose().end(), pose.begin(),
-                   [](const auto& rotation) { return rotation.template cast<double>(); });
-    place_body(result.clip, frame, roles, pose, 0, hips);
+    recorder.add(walking.pose());
     if (walking.phase() < before)
       result.contacts.push_back({frame, Foot::right});
     else if (before < 0.5 && walking.phase() >= 0.5)
       result.contacts.push_back({frame, Foot::left});
     before = walking.phase();
   }
+  result.clip = recorder.clip("walked");
   std::vector<int> right;
   for (const Contact& contact : result.contacts)
     if (contact.foot == Foot::right) right.push_back(contact.frame);
@@ -212,16 +209,23 @@ TEST(SpeedFeetRealData, feet_slide_no_more_than_the_captured_ones) {
     }
     own /= stances;
     const SpeedSpace& space = whole_model()->speed_spaces[i];
-    for (const double v :
-         {0.4, space.slowest, (space.slowest + space.fastest) / 2, space.fastest}) {
+    // And beyond the fastest walk that was captured, up to 10 km/h: there feet land at 2 m/s, and
+    // nobody's own are known.
+    const double fastest = highest_speed / space.leg_length;
+    double most = 0, beyond = 0;
+    for (const double v : {0.4, space.slowest, (space.slowest + space.fastest) / 2, space.fastest,
+                           (space.fastest + fastest) / 2, fastest}) {
       SpeedWalker walking = walker();
       walking.set_subject(subject.subject);
       walking.set_speed(static_cast<float>(v * space.leg_length));
       walking.settle();
       const Seen walk = seen(walking, 120, 6);
-      EXPECT_LE(foot_slide(walk.clip, body_roles(captured().body), walk.contacts).mean, own)
-          << subject.subject << " at V = " << v;
+      const double slide = foot_slide(walk.clip, body_roles(captured().body), walk.contacts).mean;
+      (v > space.fastest ? beyond : most) = std::max(v > space.fastest ? beyond : most, slide);
+      EXPECT_LE(slide, v > space.fastest ? 200 : own) << subject.subject << " at V = " << v;
     }
+    std::printf("%s: %.0f mm a stance at most, %.0f beyond the fastest walk, captured %.0f\n",
+                subject.subject.c_str(), most, beyond, own);
   }
 }
 
@@ -234,12 +238,16 @@ TEST(SpeedFeetRealData, learning_and_walking_take_no_time) {
 
   std::vector<SpeedWalker> walkers(100, walker());
   std::vector<RootMotion> roots(100, RootMotion(body.skeleton, body_roles(body), 60));
+  std::vector<FootLock> locks(100, FootLock(body.skeleton, body_roles(body), 60));
+  std::vector<Eigen::Quaternionf> pose(body.skeleton.joints.size());
   const std::clock_t start = std::clock();
   for (int frame = 0; frame < 120; ++frame)
     for (std::size_t i = 0; i < walkers.size(); ++i) {
       if (frame == 0) walkers[i].set_speed(0.02f * static_cast<float>(i));
       walkers[i].advance(1.0 / 60);
       roots[i].advance(walkers[i].pose());
+      std::ranges::copy(walkers[i].pose(), pose.begin());
+      locks[i].apply(pose, roots[i]);
     }
   const double core = static_cast<double>(std::clock() - start) / CLOCKS_PER_SEC / 2;
 
@@ -255,8 +263,8 @@ TEST(SpeedFeetRealData, learning_and_walking_take_no_time) {
   }
   std::sort(microseconds.begin(), microseconds.end());
   const double median = microseconds[microseconds.size() / 2];
-  std::printf("learning %.2f s; a frame %.2f us; 100 walkers with roots %.3f of a core\n", learning,
-              median, core);
+  std::printf("learning %.2f s; a frame %.2f us; 100 walkers on the ground %.3f of a core\n",
+              learning, median, core);
 #if defined(NDEBUG) && !defined(__SANITIZE_ADDRESS__) && !defined(__SANITIZE_THREAD__)
   EXPECT_LT(learning, 2);
   EXPECT_LT(median, 5);

@@ -9,7 +9,10 @@
 #include <vector>
 
 #include "gait/error.h"
+#include "gait/judge/foot_slide.h"
+#include "gait/judge/walk_recorder.h"
 #include "gait/model/body_pose.h"
+#include "gait/motion/kinematics.h"
 #include "gait/motion/rotation.h"
 #include "gait/play/root_motion.h"
 #include "play/forbidden_memory.h"
@@ -70,6 +73,41 @@ TEST(SpeedWalker, feet_travel_at_the_commanded_speed) {
       walking.settle();
       EXPECT_NEAR(travelled_speed(walking) * 3.6 / kmh, 1, 0.01) << subject << ", " << kmh;
     }
+}
+
+// Up to 6.6 km/h these subjects walked. Beyond, the lines lead on to strides whose feet land faster
+// than a foot can be stopped without a jerk.
+TEST(SpeedWalker, stands_firmly_at_any_speed_that_was_walked_and_sinks_at_none) {
+  const Model& model = *testing::speed_model();
+  const JointRoles roles = body_roles(*model.body);
+  for (double kmh = 1; kmh <= 10; ++kmh) {
+    SpeedWalker walking = walker();
+    walking.set_speed(static_cast<float>(kmh / 3.6));
+    walking.settle();
+    WalkRecorder recorder(*model.body, 1 / frame, walking.scale());
+    std::vector<Contact> contacts;
+    for (int i = -120; i < 600; ++i) {
+      walking.advance(frame);
+      if (i < 0) {
+        recorder.lead_in(walking.pose());
+        continue;
+      }
+      if (walking.contact()) contacts.push_back({i, *walking.contact()});
+      recorder.add(walking.pose());
+    }
+    const Clip clip = recorder.clip("walked");
+    const double slide = foot_slide(clip, roles, contacts).mean;
+    const WorldPoses world = world_poses(clip);
+    double lowest = 1;
+    const std::size_t joints = clip.skeleton.joints.size();
+    for (std::size_t i = 0; i < world.positions.size(); ++i)
+      for (const Eigen::Vector3d& tip : clip.skeleton.joints[i % joints].tips)
+        lowest = std::min(lowest, (world.positions[i] + world.rotations[i] * tip).y());
+    std::printf("%2.0f km/h: %.1f mm a stance, lowest point %.1f mm\n", kmh, slide, 1000 * lowest);
+    EXPECT_GT(contacts.size(), 6u);
+    EXPECT_LT(slide, kmh <= 7 ? 7 : 40) << kmh << " km/h";
+    EXPECT_GT(lowest, -0.01) << kmh << " km/h";
+  }
 }
 
 TEST(SpeedWalker, the_fitted_law_tells_at_which_speed_the_feet_really_go) {

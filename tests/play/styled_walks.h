@@ -10,12 +10,12 @@
 
 #include "gait/corpus/corpus.h"
 #include "gait/judge/walk_model.h"
+#include "gait/judge/walk_recorder.h"
 #include "gait/learn/trainer.h"
 #include "gait/learn/walk_sequences.h"
 #include "gait/model/body_pose.h"
 #include "gait/motion/body_frame.h"
 #include "gait/motion/bvh.h"
-#include "gait/play/root_motion.h"
 #include "gait/play/style_walker.h"
 #include "shared_data.h"
 
@@ -72,7 +72,7 @@ inline int style_named(const Model& model, const std::string& name) {
   return at == model.styles.end() ? -1 : static_cast<int>(at - model.styles.begin());
 }
 
-// What a walker walked, put on the ground by its feet.
+// What a walker walked, put on the ground as for whoever asks the tool for a walk.
 struct Walked {
   Clip clip;
   std::vector<Contact> contacts;
@@ -82,21 +82,16 @@ struct Walked {
 template <typename EachFrame>
 Walked walked(const Model& model, StyleWalker& walker, double frame_rate, int frames,
               EachFrame each_frame) {
-  const Body& body = *model.body;
-  const JointRoles roles = body_roles(body);
   Walked result;
-  result.clip = body_clip(body, "walked", frame_rate, frames);
-  RootMotion root(body.skeleton, roles, frame_rate);
-  std::vector<Eigen::Quaterniond> pose(walker.pose().size());
+  WalkRecorder recorder(*model.body, frame_rate);
   for (int frame = 0; frame < frames; ++frame) {
     each_frame(frame);
     if (frame > 0) walker.advance(1 / frame_rate);
     if (walker.contact()) result.contacts.push_back({frame, *walker.contact()});
     result.phase.push_back(walker.phase());
-    const Eigen::Vector3f hips = root.advance(walker.pose());
-    for (std::size_t i = 0; i < pose.size(); ++i) pose[i] = walker.pose()[i].cast<double>();
-    place_body(result.clip, frame, roles, pose, 0, hips.cast<double>());
+    recorder.add(walker.pose());
   }
+  result.clip = recorder.clip("walked");
   return result;
 }
 

@@ -19,16 +19,27 @@ WalkRecorder::WalkRecorder(const Body& body, double frame_rate, double scale, do
       roles_(body_roles(body_)),
       frame_rate_(frame_rate),
       turn_(turn),
-      root_(body_.skeleton, roles_, frame_rate) {}
+      root_(body_.skeleton, roles_, frame_rate),
+      lock_(body_.skeleton, roles_, frame_rate) {
+  root_.set_feet_locked(true);
+}
 
-void WalkRecorder::lead_in(std::span<const Eigen::Quaternionf> pose) { root_.advance(pose); }
+// Returns the hips' place.
+Eigen::Vector3d WalkRecorder::stand(std::span<const Eigen::Quaternionf> pose, double heading) {
+  standing_.assign(pose.begin(), pose.end());
+  const auto turned = static_cast<float>(heading);
+  const Eigen::Vector3f hips = root_.advance(standing_, turned);
+  lock_.apply(standing_, root_, turned);
+  return hips.cast<double>();
+}
 
 void WalkRecorder::add(std::span<const Eigen::Quaternionf> pose) {
   const double heading = turn_ * frames() / frame_rate_;
-  Eigen::Vector3d hips = root_.advance(pose, static_cast<float>(heading)).cast<double>();
+  const Eigen::Vector3d hips = stand(pose, heading);
   if (hips_.empty()) start_ = {hips.x(), 0, hips.z()};
   hips_.push_back(hips - start_);
-  for (const Eigen::Quaternionf& rotation : pose) rotations_.push_back(rotation.cast<double>());
+  for (const Eigen::Quaternionf& rotation : standing_)
+    rotations_.push_back(rotation.cast<double>());
 }
 
 Clip WalkRecorder::clip(const std::string& name) const {

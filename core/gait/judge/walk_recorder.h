@@ -1,5 +1,5 @@
 // What a walker walks, written into a clip: its poses are put back into the world, on ground that
-// its own feet find (RootMotion), along a path that may turn.
+// its own feet find (RootMotion) and keep (FootLock), along a path that may turn.
 //
 // Units: metres, seconds, radians.
 #pragma once
@@ -12,6 +12,7 @@
 
 #include "gait/model/body_pose.h"
 #include "gait/motion/clip.h"
+#include "gait/play/foot_lock.h"
 #include "gait/play/root_motion.h"
 
 namespace gait {
@@ -23,7 +24,7 @@ class WalkRecorder {
   WalkRecorder(const Body& body, double frame_rate, double scale = 1, double turn = 0);
 
   // A frame before the clip begins: the feet find their way, nothing is kept.
-  void lead_in(std::span<const Eigen::Quaternionf> pose);
+  void lead_in(std::span<const Eigen::Quaternionf> pose) { stand(pose, 0); }
   // `pose`: local rotations of the model's body, the hips' with heading out.
   void add(std::span<const Eigen::Quaternionf> pose);
 
@@ -32,10 +33,14 @@ class WalkRecorder {
   Clip clip(const std::string& name) const;
 
  private:
+  Eigen::Vector3d stand(std::span<const Eigen::Quaternionf> pose, double heading);
+
   Body body_;
   JointRoles roles_;
   double frame_rate_, turn_;
   RootMotion root_;
+  FootLock lock_;
+  std::vector<Eigen::Quaternionf> standing_;  // the pose on the ground
   Eigen::Vector3d start_ = Eigen::Vector3d::Zero();
   std::vector<Eigen::Quaterniond> rotations_;  // frame after frame
   std::vector<Eigen::Vector3d> hips_;
