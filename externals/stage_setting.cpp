@@ -37,6 +37,9 @@ bool StageSetting::take_number(const Arguments& arguments) {
     const auto at = std::ranges::find(roots, from);
     if (at == roots.end()) arguments.fail_at(0, "feet, keep or still");
     root_ = static_cast<RootFrom>(at - roots.begin());
+  } else if (selector == "lock") {
+    arguments.expect_count(1);
+    lock_ = arguments.flag(0);
   } else if (selector == "heading") {
     heading_ = one(-fastest_turn, fastest_turn);
   } else if (selector == "smooth") {
@@ -78,6 +81,7 @@ void StageSetting::take_report(const Arguments& arguments, const BodyStage* stag
 // All of them: what did not change changes nothing.
 void StageSetting::set(BodyStage& stage) const {
   stage.set_root(root_);
+  stage.set_lock(lock_);
   stage.set_heading_rate(heading_);
   stage.set_smooth(smooth_);
   stage.set_leg_length(leg_);
@@ -101,6 +105,7 @@ void StageSetting::apply(BodyStage& stage, const std::function<void(const char*)
 
 void StageSetting::dump(Outlet& info) const {
   info.add(roots[static_cast<std::size_t>(root_)]).send("root");
+  info.add(lock_ ? 1 : 0).send("lock");
   info.add(heading_).send("heading");
   info.add(place_).send("place");
   info.add(smooth_).send("smooth");

@@ -2,6 +2,7 @@
 // when it is replaced.
 //
 //   root feet|keep|still
+//   lock 0|1                feet of whole poses stay where they stand, if the root is from them
 //   heading W               rad/s: the path turns
 //   place x y z             where it begins
 //   smooth HZ               1-euro filter, 0: off
@@ -43,6 +44,7 @@ class StageSetting {
   void set(BodyStage& stage) const;
 
   RootFrom root_ = RootFrom::feet;
+  bool lock_ = true;
   float heading_ = 0, smooth_ = 0, leg_ = 0;
   std::array<float, 3> place_{};
   int delay_ = 0;

@@ -139,27 +139,61 @@ TEST(SkeletonObject, stays_where_it_is_while_it_does_not_walk_or_walks_on_the_sp
 TEST(SkeletonObject, is_restored_by_its_dump_and_says_bones_again_on_request) {
   GAIT_NEEDS_PD();
   SkeletonPatch patch;
-  patch.at_start({"root still", "heading 0.5", "place 1 2 3", "smooth 2", "leg 1", "delay 4",
-                  "walking 0", "report Head 3", "dump", "resend", "print", "perf", "reset"},
-                 patch.skeleton);
+  patch.at_start(
+      {"root still", "lock 0", "heading 0.5", "place 1 2 3", "smooth 2", "leg 1", "delay 4",
+       "walking 0", "report Head 3", "dump", "resend", "print", "perf", "reset"},
+      patch.skeleton);
   patch.quit_after(10);
   const PdRun run = run_pd(patch);
   ASSERT_EQ(run.exit_code, 0) << run.log;
   EXPECT_EQ(run.errors(), std::vector<std::string>()) << run.log;
   const auto info = run.recorded("info");
-  for (const char* line : {"root still", "heading 0.5", "place 1 2 3", "smooth 2", "leg 1",
-                           "delay 4", "walking 0", "report Head 3"})
+  for (const char* line : {"root still", "lock 0", "heading 0.5", "place 1 2 3", "smooth 2",
+                           "leg 1", "delay 4", "walking 0", "report Head 3"})
     EXPECT_NE(std::ranges::find(info, line), info.end()) << line;
   EXPECT_GE(run.numbers("figure", "bones").size(), 1u);
+}
+
+TEST(SkeletonObject, holds_feet_until_told_not_to) {
+  GAIT_NEEDS_PD();
+  SkeletonPatch patch;
+  const int frames = 60;
+  // A joint off by two in a hundred moves its foot.
+  Eigen::MatrixXf poses = sad().pose;
+  for (int i = 0; i < frames; ++i) poses.col(i).tail(6) *= 0.98f;
+  std::vector<std::string> messages;
+  for (const char* lock : {"lock 1", "lock 0"}) {
+    messages.insert(messages.end(), {lock, "reset"});
+    for (int i = 0; i < frames; ++i) messages.push_back(message_of("pose", column(poses, i)));
+  }
+  patch.at_start(messages, patch.skeleton);
+  patch.quit_after(10);
+  const PdRun run = run_pd(patch);
+  ASSERT_EQ(run.exit_code, 0) << run.log;
+  EXPECT_EQ(run.errors(), std::vector<std::string>()) << run.log;
+  const auto shown = run.numbers("body", "pose");
+  ASSERT_EQ(shown.size(), 2u * frames);
+  double held = 0, free = 0;
+  for (int i = 0; i < frames; ++i) {
+    const auto sent = column(poses, i);
+    for (std::size_t at = 0; at < sent.size(); ++at) {
+      const auto off = [&](int frame) {
+        return std::abs(shown[static_cast<std::size_t>(frame)][at] - static_cast<double>(sent[at]));
+      };
+      held = std::max(held, off(i)), free = std::max(free, off(frames + i));
+    }
+  }
+  EXPECT_GT(held, 1e-3);
+  EXPECT_LT(free, 1e-6);
 }
 
 TEST(SkeletonObject, refuses_what_it_cannot_use_with_one_line_each) {
   GAIT_NEEDS_PD();
   SkeletonPatch patch;
-  const std::vector<std::string> bad{"root sideways", "heading loud", "heading 99",   "place 1 2",
-                                     "smooth -1",     "leg -1",       "delay 0.5",    "delay 1000",
-                                     "walking maybe", "report Nose",  "report 99999", "jump 3",
-                                     "stream 3"};
+  const std::vector<std::string> bad{"root sideways", "heading loud", "heading 99",  "place 1 2",
+                                     "smooth -1",     "leg -1",       "delay 0.5",   "delay 1000",
+                                     "walking maybe", "lock tight",   "report Nose", "report 99999",
+                                     "jump 3",        "stream 3"};
   patch.at_start(bad, patch.skeleton);
   patch.at_start({"in 1 2 3"}, patch.skeleton, 1);
   patch.at_start({"jump"}, patch.skeleton, 1);

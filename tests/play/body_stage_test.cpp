@@ -92,6 +92,7 @@ TEST(BodyStage, puts_parts_together_to_the_body_they_are_of_and_walks_as_its_fee
   const Body& body = *model->body;
   const JointRoles roles = body_roles(body);
   BodyStage parts(model), whole(model);
+  whole.set_lock(false);  // of parts nothing is held
   RootMotion root(body.skeleton, roles, model->frame_rate);
   Clip clip = body_clip(body, "staged", model->frame_rate, 1);
   for (int frame = 0; frame < sad().frames(); ++frame) {
@@ -108,7 +109,9 @@ TEST(BodyStage, puts_parts_together_to_the_body_they_are_of_and_walks_as_its_fee
       pose.push_back(
           rotation_from<float>(std::span<const float, 3>(sad().pose.col(frame).data() + 3 * at, 3),
                                body.references[at].cast<float>()));
-      in_double.push_back(pose.back().cast<double>());
+      in_double.push_back(rotation_from<float>(whole.pose().subspan(3 * at).first<3>(),
+                                               body.references[at].cast<float>())
+                              .cast<double>());
     }
     const Eigen::Vector3f hips = root.advance(pose);
     place_body(clip, 0, roles, in_double, 0, hips.cast<double>());
@@ -184,6 +187,7 @@ TEST(BodyStage, goes_over_from_measured_inputs_to_whole_poses_and_back_without_a
 TEST(BodyStage, has_its_root_from_the_feet_as_measured_or_on_the_spot) {
   const auto model = few_walks_model();
   BodyStage feet(model), keep(model), still(model), turned(model);
+  feet.set_lock(false);  // its root would be smoother
   keep.set_root(RootFrom::keep);
   still.set_root(RootFrom::still);
   ASSERT_TRUE(still.set_place({1, 0.5f, 2}));
@@ -206,6 +210,94 @@ TEST(BodyStage, has_its_root_from_the_feet_as_measured_or_on_the_spot) {
   const float turn = static_cast<float>(walk.frames() / model->frame_rate) * 0.5f;
   EXPECT_NEAR(std::remainder(turned.root().heading - turn, 2 * static_cast<float>(M_PI)), 0, 0.02f);
   EXPECT_LT(turned.root().hips.norm(), 0.8f * feet.root().hips.norm());
+}
+
+// How far the lowest place of each foot goes over the ground while it is the lowest and near it, as
+// an audience sees it: metres, over the whole walk.
+class Slid {
+ public:
+  explicit Slid(const BodyStage& stage) : stage_(stage) {
+    const JointRoles roles = body_roles(*stage.model().body);
+    for (const Leg* leg : {&roles.right, &roles.left})
+      places_[leg == &roles.left] = {leg->foot, leg->toes};
+    for (const auto& [parent, child] : stage.bones())
+      for (auto& foot : places_)
+        if (std::ranges::find(foot, parent) != foot.end() &&
+            std::ranges::find(foot, child) == foot.end())
+          foot.push_back(child);
+  }
+  void look() {
+    for (int side = 0; side < 2; ++side) {
+      const auto& foot = places_[side];
+      const int lowest = *std::ranges::min_element(
+          foot, {}, [&](int place) { return joint_at(stage_, place).y(); });
+      const Eigen::Vector3f at = joint_at(stage_, lowest);
+      const Eigen::Vector3f moved = at - before_[side];
+      // A foot that goes as fast as that is not meant to stand.
+      if (lowest == lowest_[side] && at.y() < 0.008f && moved.norm() < 0.012f)
+        slid_ += std::hypot(moved.x(), moved.z());
+      lowest_[side] = lowest, before_[side] = at;
+    }
+  }
+  float metres() const { return slid_; }
+
+ private:
+  const BodyStage& stage_;
+  std::array<std::vector<int>, 2> places_;
+  std::array<int, 2> lowest_{-1, -1};
+  std::array<Eigen::Vector3f, 2> before_{};
+  float slid_ = 0;
+};
+
+TEST(BodyStage, keeps_feet_where_they_stand_unless_told_not_to) {
+  const auto model = few_walks_model();
+  const Body& body = *model->body;
+  Clip clip = body_clip(body, "staged", model->frame_rate, 1);
+  BodyStage held(model), free(model), spot(model);
+  free.set_lock(false);
+  spot.set_root(RootFrom::still);
+  Slid held_slid(held), free_slid(free);
+  std::vector<Pose> came, shown;
+  Eigen::VectorXf pose;
+  for (int frame = 0; frame < proud().frames(); ++frame) {
+    // Thighs that are some degrees off, as reconstructed ones are.
+    pose = proud().pose.col(frame);
+    const JointRoles roles = body_roles(*model->body);
+    pose[3 * roles.right.thigh] += 0.02f * std::sin(0.15f * static_cast<float>(frame));
+    pose[3 * roles.left.thigh] += 0.02f * std::sin(0.2f * static_cast<float>(frame));
+    const std::span<const float> values{pose.data(), static_cast<std::size_t>(pose.size())};
+    for (BodyStage* stage : {&held, &free, &spot}) ASSERT_TRUE(stage->show_pose(values));
+    // Pose and places tell the same: by a clip's forward kinematics, in double.
+    std::vector<Eigen::Quaterniond> local;
+    for (std::size_t at = 0; at < body.references.size(); ++at)
+      local.push_back(rotation_from<float>(held.pose().subspan(3 * at).first<3>(),
+                                           body.references[at].cast<float>())
+                          .cast<double>());
+    place_body(clip, 0, body_roles(body), local, 0, held.root().hips.cast<double>());
+    const WorldPoses world = world_poses(clip);
+    for (const auto& [parent, child] : held.bones())
+      if (child < body.skeleton.size()) {
+        ASSERT_LT((joint_at(held, child).cast<double>() -
+                   world.positions[static_cast<std::size_t>(child)])
+                      .norm(),
+                  1e-4)
+            << "frame " << frame << ", joint " << child << " of " << parent;
+      }
+    EXPECT_EQ(kept(free.pose()), kept(values));
+    EXPECT_EQ(kept(spot.pose()), kept(values));  // its feet have nowhere to stand
+    came.push_back(rotations(values));
+    shown.push_back(rotations(held.pose()));
+    if (frame > 15) held_slid.look(), free_slid.look();
+  }
+  std::printf("slid %.0f mm in all, %.0f mm with feet locked\n", 1000 * free_slid.metres(),
+              1000 * held_slid.metres());
+  EXPECT_GT(free_slid.metres(), 0.01f);
+  EXPECT_LT(held_slid.metres(), 0.3f * free_slid.metres());
+  JointMotion before, after;
+  before.add(came, model->frame_rate, 2, came.size());
+  after.add(shown, model->frame_rate, 2, shown.size());
+  EXPECT_LE(percentile(after.speeds, 0.999), 1.1 * percentile(before.speeds, 0.999));
+  EXPECT_LE(percentile(after.accelerations, 0.999), 1.1 * percentile(before.accelerations, 0.999));
 }
 
 TEST(BodyStage, stays_where_it_is_while_it_does_not_walk) {
@@ -352,6 +444,7 @@ TEST(BodyStage, tells_lively_styles_from_others) {
 TEST(BodyStage, smooths_what_trembles_and_is_hardly_late_for_what_moves) {
   const auto model = few_walks_model();
   BodyStage stage(model);
+  stage.set_lock(false);
   ASSERT_TRUE(stage.set_smooth(1));
   std::mt19937 random(5);
   std::normal_distribution<float> noise(0, 0.02f);
@@ -424,6 +517,7 @@ TEST(BodyStage, takes_no_memory) {
     for (int frame = 0; frame < 100; ++frame) {
       if (frame == 20) stage.set_smooth(2);
       if (frame == 30) stage.set_delay(5);
+      if (frame % 40 == 35) stage.set_lock(frame > 50);
       stage.store_root(walk.roots[static_cast<std::size_t>(frame)]);
       stage.store_inputs(column(walk.in, frame));
       if (frame / 25 % 2 == 0)

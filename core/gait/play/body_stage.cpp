@@ -42,9 +42,14 @@ BodyStage::BodyStage(std::shared_ptr<const Model> model)
       roots_(Eigen::VectorXf::Zero(4)),
       filter_(model_->body->skeleton.size(), model_->frame_rate),
       motion_(model_->body->skeleton, body_roles(*model_->body), model_->frame_rate),
+      foot_lock_(model_->body->skeleton, body_roles(*model_->body), model_->frame_rate),
       meter_(*model_) {
   const Body& body = *model_->body;
   model_leg_ = std::max(1e-3f, leg_length(*model_));
+  const JointRoles roles = body_roles(body);
+  for (const Leg& leg : {roles.right, roles.left})
+    for (const int joint : {leg.thigh, leg.shank, leg.foot})
+      leg_joints_.push_back(static_cast<std::size_t>(joint));
   for (const auto& reference : body.references) references_.push_back(reference.cast<float>());
   for (const Joint& joint : body.skeleton.joints) {
     offsets_.push_back(joint.offset.cast<float>());
@@ -127,6 +132,7 @@ void BodyStage::reset() noexcept {
   roots_.reset();
   filter_.reset();
   motion_.reset();
+  foot_lock_.reset();
   meter_.reset();
   started_ = false;
   heading_ = 0;
@@ -142,12 +148,11 @@ void BodyStage::make() noexcept {
                                         references_[joint]);
   if (filter_.on()) {
     filter_.apply(pose_);
-    for (std::size_t joint = 0; joint < pose_.size(); ++joint)
-      values_.segment<3>(3 * static_cast<Eigen::Index>(joint)) =
-          rotation_vector<float>(references_[joint].conjugate() * pose_[joint]);
+    for (std::size_t joint = 0; joint < pose_.size(); ++joint) tell_values(joint);
   }
   meter_.advance(pose_);
   move();
+  hold_feet();
   watch_feet();
   place_joints();
 }
@@ -160,6 +165,7 @@ void BodyStage::move() noexcept {
   heading_ = std::remainder(heading_ + going_.value() * heading_rate_ * period_,
                             2 * std::numbers::pi_v<float>);
   const Eigen::Vector3f before = walked_;
+  motion_.set_feet_locked(locked());
   walked_ = motion_.advance(pose_, heading_);
   if (started_ && from_ == RootFrom::feet) {
     const Eigen::Vector3f moved = going_.value() * (walked_ - before);
@@ -176,6 +182,19 @@ void BodyStage::move() noexcept {
     root_.hips = place_ + scale_ * path_.cast<float>();
     root_.heading = heading_;
   }
+}
+
+// Who does not walk is not held: nothing says where such feet are to be.
+void BodyStage::hold_feet() noexcept {
+  foot_lock_.apply(pose_, motion_, heading_, locked() ? going_.value() : 0);
+  if (foot_lock_.correction(Foot::right).isZero(0) && foot_lock_.correction(Foot::left).isZero(0))
+    return;
+  for (const std::size_t joint : leg_joints_) tell_values(joint);
+}
+
+void BodyStage::tell_values(std::size_t joint) noexcept {
+  values_.segment<3>(3 * static_cast<Eigen::Index>(joint)) =
+      rotation_vector<float>(references_[joint].conjugate() * pose_[joint]);
 }
 
 void BodyStage::watch_feet() noexcept {
@@ -223,6 +242,7 @@ bool BodyStage::take_over(const BodyStage& other) noexcept {
     return false;
   set_delay(other.assembly_.delay());
   from_ = other.from_;
+  lock_ = other.lock_;
   going_ = other.going_;
   heading_rate_ = other.heading_rate_;
   place_ = other.place_;

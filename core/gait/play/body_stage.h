@@ -1,7 +1,9 @@
 // A body on stage: its parts put together (BodyAssembly), smoothed on request, walking over the
 // ground, and what can be seen of it: where its joints are, when its feet touch, how lively it is.
 //
-// The root comes from the feet, or is what was measured with the pose, or walks on the spot. The
+// The root comes from the feet, or is what was measured with the pose, or walks on the spot. Where
+// it comes from the feet and nobody was measured, for a whole pose is shown, they stay where they
+// stand: the legs are corrected for it (FootLock). Outputs are shown as they were made. The
 // path from the feet goes on from wherever it is: a body that does not walk (stands, turns on the
 // spot) stays where it is, without a jerk when it stops or starts. One frame is 1 /
 // model.frame_rate, whoever sends it.
@@ -20,6 +22,7 @@
 #include "gait/model/model.h"
 #include "gait/motion/steps.h"
 #include "gait/play/body_assembly.h"
+#include "gait/play/foot_lock.h"
 #include "gait/play/foot_touch.h"
 #include "gait/play/glide.h"
 #include "gait/play/motion_meter.h"
@@ -57,6 +60,7 @@ class BodyStage {
   void set_delay(int frames) noexcept { assembly_.set_delay(frames); }
   void set_walking(bool walking) noexcept { going_.set(walking ? 1.0f : 0.0f); }
   void set_root(RootFrom from) noexcept { from_ = from; }
+  void set_lock(bool lock) noexcept { lock_ = lock; }  // feet that stand; at first it is set
   bool set_heading_rate(float radians_per_second) noexcept;
   bool set_place(const Eigen::Vector3f& place) noexcept;  // where its path began, on the ground
   bool set_smooth(float hertz) noexcept;                  // 1-euro filter at rest; 0: off
@@ -93,7 +97,10 @@ class BodyStage {
   static std::size_t index(Foot foot) noexcept { return foot == Foot::right ? 0 : 1; }
 
   void make() noexcept;
+  bool locked() const noexcept { return lock_ && from_ == RootFrom::feet && assembly_.whole(); }
   void move() noexcept;
+  void hold_feet() noexcept;
+  void tell_values(std::size_t joint) noexcept;
   void watch_feet() noexcept;
   void place_joints() noexcept;
 
@@ -115,9 +122,12 @@ class BodyStage {
   DelayedFrames roots_;  // x y z heading
   OneEuroFilter filter_;
   RootMotion motion_;
+  FootLock foot_lock_;
+  std::vector<std::size_t> leg_joints_;  // that the lock corrects
   MotionMeter meter_;
 
   RootFrom from_ = RootFrom::feet;
+  bool lock_ = true;
   Glide going_{1};  // 1 walks, 0 does not
   float heading_rate_ = 0, scale_ = 1;
   Eigen::Vector3f place_ = Eigen::Vector3f::Zero();
