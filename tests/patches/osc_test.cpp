@@ -492,6 +492,7 @@ TEST(Osc, each_performer_has_a_calibration_and_avatars_of_his_own) {
     osc::Receiver avatar({.port = port});
     patch.tell("list 1 to localhost " + std::to_string(port) + " gait");
     patch.tell("list 0 calibrate t");  // nobody is there
+    wait_until(now() + 0.3);
     FullSuit suit;
     const osc::Destination first("127.0.0.1", patch.port), second("127.0.0.1", patch.port);
     const HumanoidPose pose = standing_pose(body, CalibrationPose::t);
