@@ -218,8 +218,7 @@ class Slid {
  public:
   explicit Slid(const BodyStage& stage) : stage_(stage) {
     const JointRoles roles = body_roles(*stage.model().body);
-    for (const Leg* leg : {&roles.right, &roles.left})
-      places_[leg == &roles.left] = {leg->foot, leg->toes};
+    for (const Leg* leg : {&roles.right, &roles.left}) places_[leg == &roles.left] = {leg->foot};
     for (const auto& [parent, child] : stage.bones())
       for (auto& foot : places_)
         if (std::ranges::find(foot, parent) != foot.end() &&

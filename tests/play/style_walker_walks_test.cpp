@@ -279,12 +279,9 @@ struct Bends {
   }
 };
 
-// What mixing does stays within the training's range; seven degrees more for what variation adds to
-// it: normally distributed scores go further than the few cycles that were seen, and the built-in
-// legs are drawn never to come nearer to straight than 7 degrees.
-constexpr double tolerance = 0.12;
-
-void expect_human_between_styles(const StyledWalks& walks) {
+// What mixing does stays within the training's range; `tolerance` (radians) is for what variation
+// adds to it: normally distributed scores go further than the few cycles that were seen.
+void expect_human_between_styles(const StyledWalks& walks, double tolerance) {
   const Model& model = *walks.model;
   const JointRoles roles = body_roles(*model.body);
   const bool hands = roles.joint(Role::left_hand) >= 0 && roles.joint(Role::right_hand) >= 0;
@@ -301,6 +298,7 @@ void expect_human_between_styles(const StyledWalks& walks) {
     }
   }
   const double rate = frame_rate(walks);
+  double beyond = 0;
   for (std::size_t a = 0; a < model.styles.size(); ++a)
     for (std::size_t b = 0; b < a; ++b) {
       std::vector<float> weights(model.styles.size(), 0);
@@ -315,6 +313,7 @@ void expect_human_between_styles(const StyledWalks& walks) {
         for (int frame = 0; frame < walked.clip.frames(); ++frame) {
           const auto bends = Bends::of(walked.clip, model.body->roles, world, frame);
           for (std::size_t i = 0; i < (hands ? 4U : 2U); ++i) {
+            beyond = std::max({beyond, seen.least[i] - bends[i], bends[i] - seen.most[i]});
             EXPECT_GE(bends[i], seen.least[i] - variation * tolerance) << pair << ", bend " << i;
             EXPECT_LE(bends[i], seen.most[i] + variation * tolerance) << pair << ", bend " << i;
           }
@@ -325,15 +324,18 @@ void expect_human_between_styles(const StyledWalks& walks) {
         }
       }
     }
+  std::printf("beyond the training's knees and elbows by %.1f degrees at most\n",
+              beyond * 180 / M_PI);
 }
 
 TEST(StyleWalkerWalks, half_way_between_two_built_in_styles_are_still_human) {
-  expect_human_between_styles(corpus_walks());
+  // Its legs are drawn never to come nearer to straight than 7 degrees; people's do.
+  expect_human_between_styles(corpus_walks(), 0.11);
 }
 
 TEST(StyleWalkerWalks, half_way_between_two_captured_styles_are_still_human) {
   GAIT_NEEDS_SHARED_DATA("bandai-namco-2");
-  expect_human_between_styles(captured_walks());
+  expect_human_between_styles(captured_walks(), 0.01);
 }
 
 }  // namespace

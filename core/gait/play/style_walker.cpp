@@ -173,7 +173,9 @@ bool StyleWalker::set_cadence(float steps_per_second) noexcept {
 void StyleWalker::mix_styles() noexcept {
   const Eigen::VectorXf& weights = mix_.weights();
   mean_.noalias() = means_ * weights;
-  deviation_.noalias() = deviations_ * weights;
+  // Of independent draws of each style, weighted: half-way between two, less than either varies.
+  deviation_.noalias() = deviations_.cwiseAbs2() * weights.cwiseAbs2();
+  deviation_ = deviation_.cwiseSqrt();
   limit_.noalias() = limits_ * weights;
   range_.noalias() = ranges_ * weights;
   const float duration = mean_[components()];
