@@ -461,7 +461,7 @@ TEST(Osc, a_new_model_finds_performers_calibrated_and_what_was_masked_masked) {
     }
     EXPECT_TRUE(running.wait_for("in", "mask LeftForeArm 0"));
     patch.tell("model read " GAIT_PD_FOLDER "/gait-demo.gait");
-    wait_until(now() + 0.3);
+    EXPECT_TRUE(running.wait_for("info", "ready"));
     for (std::size_t i = 0; i < 20; ++i) {
       send(to, sender.packets(poses[i]));
       wait_until(now() + 1 / 30.0);
