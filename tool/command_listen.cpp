@@ -74,8 +74,7 @@ void listen(const ListenOptions& options) {
   const unsigned long long dropped = received.dropped + gatherer.refused();
   if (dropped > 0 || received.faulty > 0)
     std::fprintf(stderr, "gait listen: warning: %llu events were dropped, %llu messages faulty\n",
-                 dropped,
-                 static_cast<unsigned long long>(received.faulty));
+                 dropped, static_cast<unsigned long long>(received.faulty));
   const Clip clip = recording.clip(options.output);
   write_bvh(bvh_from_clip(clip), output.part());
   output.keep();
