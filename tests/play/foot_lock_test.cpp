@@ -66,7 +66,7 @@ Walked walked(const Spoilt& spoilt, double strength = 1) {
   const Skeleton& skeleton = spoilt.walk.clip.skeleton;
   Walked result{spoilt.walk.clip, spoilt.walk.clip, {}, {}};
   RootMotion root(skeleton, spoilt.roles, spoilt.rate());
-  root.set_feet_locked(true);
+  root.set_gentle(true);
   FootLock lock(skeleton, spoilt.roles, spoilt.rate());
   for (int frame = 0; frame < spoilt.frames(); ++frame) {
     Pose pose = spoilt.pose(frame);

@@ -165,7 +165,7 @@ void BodyStage::move() noexcept {
   heading_ = std::remainder(heading_ + going_.value() * heading_rate_ * period_,
                             2 * std::numbers::pi_v<float>);
   const Eigen::Vector3f before = walked_;
-  motion_.set_feet_locked(locked());
+  motion_.set_gentle(locked());
   walked_ = motion_.advance(pose_, heading_);
   if (started_ && from_ == RootFrom::feet) {
     const Eigen::Vector3f moved = going_.value() * (walked_ - before);

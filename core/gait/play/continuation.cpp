@@ -8,6 +8,11 @@
 #include "gait/play/falling_in_step.h"
 
 namespace gait {
+namespace {
+
+constexpr double gentle_seconds = 0.7;  // after a hand-over
+
+}  // namespace
 
 Continuation::Continuation(std::shared_ptr<const Model> model, const PlayerSettings& settings,
                            const StepWalkerSettings& walking)
@@ -177,6 +182,13 @@ void Continuation::show(const Motion& motion) noexcept {
   shown_.take(motion.pose, motion.heading, {motion.outputs.data(), outputs()});
   ++shown_frames_;
   Motion& shown = shown_.now;
+  // The feet of a mixture have no place of their own: the root goes by them gently, and takes its
+  // time to be where they say.
+  if (!hand_over_.over() || (alone_ && alone_as_ == OnLost::walk))
+    gentle_ = gentle_seconds;
+  else
+    gentle_ = std::max(0.0, gentle_ - period_);
+  root_.set_gentle(gentle_ > 0);
   if (!hand_over_.over()) {
     const Eigen::VectorXf& offset = hand_over_.advance();
     const auto joints = static_cast<Eigen::Index>(shown.pose.size());

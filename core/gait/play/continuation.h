@@ -95,6 +95,7 @@ class Continuation {
   bool alone_ = false;
   int returned_ = 0;  // frames reconstructed again while still alone
   int shown_frames_ = 0;
+  double gentle_ = 0;  // seconds that the root is still to be gentle
   Moving shown_, source_, fed_;
   Eigen::VectorXf offset_, offset_before_;  // per joint three, heading, then outputs
   std::vector<float> styles_;

@@ -22,12 +22,14 @@ constexpr float strongest_push = 27.0f;  // m/s²: hips in walks stay under 20, 
 constexpr double speed_seconds = 0.015;
 constexpr double travel_seconds = 0.5;
 constexpr double height_seconds = 0.1 / 3;  // 95 % of a height error is gone after 100 ms
-constexpr double deepest = 0.008;           // m: no point sinks further, however fast the walk
+constexpr double deepest_pin = 0.008;       // m: no pinned point sinks further
+constexpr double deepest = 0.0088;          // m: nor any point under the root that follows
+constexpr double give = 0.005;              // m: deeper than that the ground pushes it out by half
 constexpr float fastest_start = 3.0f;       // m/s: faster than 10 km/h nobody walks
 constexpr float starting_seconds = 0.3f;    // until pins are believed enough to be smoothed
 constexpr float brisk = 1.4f;               // m/s
 constexpr double recovery_seconds = 0.2;    // what the root is behind its pins is made up for in
-constexpr double locked_seconds = 0.02;     // of lag in speed where legs take it up
+constexpr double gentle_seconds = 0.02;     // of lag in speed where legs take it up
 constexpr double same_point = 0.005;        // m
 
 // How hard the root is pushed after its pins: m/s², and more per metre that it is behind. Captured
@@ -35,7 +37,7 @@ constexpr double same_point = 0.005;        // m
 struct Push {
   float least, per_metre;
 };
-constexpr Push push_alone{12.0f, 400.0f}, push_with_locked_feet{5.0f, 200.0f};
+constexpr Push push_alone{12.0f, 400.0f}, push_gently{5.0f, 200.0f};
 
 float gain(double frame_rate, double seconds) {
   return static_cast<float>(1 - std::exp(-1 / (frame_rate * seconds)));
@@ -67,7 +69,7 @@ RootMotion::RootMotion(const Skeleton& skeleton, const JointRoles& roles, double
   travel_gain_ = gain(frame_rate, travel_seconds);
   height_gain_ = gain(frame_rate, height_seconds);
   recovery_gain_ = gain(frame_rate, recovery_seconds);
-  locked_gain_ = gain(frame_rate, locked_seconds);
+  gentle_gain_ = gain(frame_rate, gentle_seconds);
   add_points(skeleton, roles.hips, roles.right.foot, Foot::right);
   add_points(skeleton, roles.hips, roles.left.foot, Foot::left);
   reset();
@@ -226,7 +228,7 @@ void RootMotion::move() noexcept {
   pinned_velocity_ += change;
   pinned_ += (pinned_velocity_ * period_).cast<double>();
   pinned_.y() -= height_gain_ * (pinned_.y() + lowest_);
-  pinned_.y() = std::max(pinned_.y(), -static_cast<double>(lowest_) - deepest);
+  pinned_.y() = std::max(pinned_.y(), -static_cast<double>(lowest_) - deepest_pin);
 }
 
 bool RootMotion::starting() const noexcept {
@@ -241,10 +243,10 @@ void RootMotion::follow() noexcept {
   }
   const Eigen::Vector3f behind = (pinned_ - position_).cast<float>() - pinned_moved_;
   Eigen::Vector3f change = (pinned_moved_ + recovery_gain_ * behind) / period_ - velocity_;
-  if (feet_locked_) change *= locked_gain_;
-  Push push = feet_locked_ ? push_with_locked_feet : push_alone;
+  if (gentle_) change *= gentle_gain_;
+  Push push = gentle_ ? push_gently : push_alone;
   // Hips are thrown the harder the faster the walk, by the square of its speed.
-  if (feet_locked_) push.least *= std::max(1.0f, travel_.squaredNorm() / (brisk * brisk));
+  if (gentle_) push.least *= std::max(1.0f, travel_.squaredNorm() / (brisk * brisk));
   const auto limit = [&](float distance) {
     return std::min(push.least + push.per_metre * distance, strongest_push) * period_;
   };
@@ -254,6 +256,8 @@ void RootMotion::follow() noexcept {
   change.y() = std::clamp(change.y(), -upward, upward);
   velocity_ += change;
   position_ += (velocity_ * period_).cast<double>();
+  const double low = -static_cast<double>(lowest_) - position_.y();
+  if (low > give) position_.y() += 0.5 * (low - give);
   position_.y() = std::max(position_.y(), -static_cast<double>(lowest_) - deepest);
 }
 

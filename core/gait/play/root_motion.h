@@ -12,7 +12,7 @@
 // takes over from another, a hand-over moves the root by nothing and bends its speed by little.
 // The direction of travel itself comes from height alone, over half a second: it may be backward
 // or sideways. Ground is at y = 0; the lowest point comes to it within 100 ms, and is never more
-// than 8 mm below it.
+// than 9 mm below it.
 //
 // Pins jolt where poses were mixed or reconstructed, people do not. So the root follows its pinned
 // path with limited acceleration, and makes up later for what it could not do at once: the path
@@ -49,8 +49,9 @@ class RootMotion {
   // ground.
   void reset(const Eigen::Vector3f& place = Eigen::Vector3f::Zero()) noexcept;
 
-  // Whether the legs take up what a smoother root leaves (FootLock). Not at first; at any frame.
-  void set_feet_locked(bool locked) noexcept { feet_locked_ = locked; }
+  // Whether it is pushed gently after its pins, a little late: where the legs take up what that
+  // leaves (FootLock), or feet have no place of their own. Not at first; at any frame.
+  void set_gentle(bool gentle) noexcept { gentle_ = gentle; }
 
   Eigen::Vector3f position() const noexcept { return position_.cast<float>(); }
   Eigen::Vector3f velocity() const noexcept { return velocity_; }  // of the hips, m/s
@@ -95,14 +96,14 @@ class RootMotion {
   bool starting() const noexcept;
 
   int joints_;
-  float period_, speed_gain_, travel_gain_, height_gain_, recovery_gain_, locked_gain_;
+  float period_, speed_gain_, travel_gain_, height_gain_, recovery_gain_, gentle_gain_;
   std::vector<Link> links_;
   std::vector<Point> points_;
   int frames_ = 0;                                    // since the (re)start
   float lowest_ = 0;                                  // height of the lowest point against the hips
   Eigen::Vector3f travel_ = Eigen::Vector3f::Zero();  // slow velocity, by height alone
   float walking_ = 0;  // 0 standing, 1 walking: how much travel_ is to be believed
-  bool feet_locked_ = false;
+  bool gentle_ = false;
   // By the pins, and as shown. Places in double: an hour's walk is kilometres.
   Eigen::Vector3f pinned_velocity_ = Eigen::Vector3f::Zero(), velocity_ = Eigen::Vector3f::Zero();
   Eigen::Vector3d pinned_ = Eigen::Vector3d::Zero(), position_ = Eigen::Vector3d::Zero();
