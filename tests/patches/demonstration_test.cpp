@@ -170,7 +170,7 @@ TEST(Demonstration, of_five_walks_is_learnt_without_a_long_tick) {
   patch.connect(last, 1, ticks);
   patch.connect(last, 0, quit);
   patch.dsp();
-  const PdRun run = run_pd(patch);
+  const PdRun run = run_undisturbed(patch, 1000);
   ASSERT_EQ(run.exit_code, 0) << run.log;
   const auto done = run.numbers("done", "done");
   ASSERT_EQ(done.size(), 1u) << run.log;

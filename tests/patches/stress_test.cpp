@@ -172,7 +172,7 @@ TEST(Stress, a_model_is_swapped_under_players_without_a_long_tick) {
   patch.connect(wait, 0, both);
   patch.connect(both, 1, ticks);
   patch.connect(both, 0, quit);
-  const PdRun run = run_pd(patch);
+  const PdRun run = run_undisturbed(patch, 1000);
   ASSERT_EQ(run.exit_code, 0) << run.log;
   std::vector<double> most;
   for (std::size_t at = run.log.find("ticks: "); at != std::string::npos;
