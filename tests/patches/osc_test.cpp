@@ -177,10 +177,7 @@ class FullSuit {
         add(place, Eigen::Quaterniond::Identity());
         continue;
       }
-      const int above = pose.turned_above(bone);
-      add(place, above < 0 ? pose.turns[static_cast<std::size_t>(bone)]
-                           : pose.turns[static_cast<std::size_t>(above)].conjugate() *
-                                 pose.turns[static_cast<std::size_t>(bone)]);
+      add(place, pose.local_turn(bone));
     }
     numbers_[at++] = 1;
     numbers_[at++] = static_cast<float>(time);

@@ -4,6 +4,7 @@
 #include <optional>
 
 #include "gait/error.h"
+#include "gait/motion/heading.h"
 #include "gait/motion/rotation.h"
 
 namespace gait {
@@ -80,7 +81,7 @@ std::vector<Eigen::Quaterniond> calibration_pose(const Skeleton& skeleton, const
   stand(Eigen::Quaterniond::Identity());
   const Eigen::Vector3d across =
       place_at(skeleton, world, roles.left.thigh) - place_at(skeleton, world, roles.right.thigh);
-  const double heading = std::atan2(-across.z(), across.x());
+  const double heading = heading_across(across);
   stand(about_vertical(-heading));
 
   for (int joint = 0; joint < skeleton.size(); ++joint) {

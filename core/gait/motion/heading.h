@@ -19,6 +19,11 @@ inline Eigen::Vector3d heading_direction(double heading) {
   return {std::sin(heading), 0, std::cos(heading)};
 }
 
+// Which way a body faces whose line from the right thigh (or shoulder) to the left is this.
+inline double heading_across(const Eigen::Vector3d& right_to_left) {
+  return std::atan2(-right_to_left.z(), right_to_left.x());
+}
+
 // Unwrapped heading per frame, from a centred window of one cycle; at the clip's ends the window is
 // the first or last whole one. Needs hips and both thighs (JointRoles::has_legs).
 std::vector<double> centred_heading(const WorldPoses& world, const JointRoles& roles, int joints,

@@ -88,6 +88,19 @@ struct HumanoidPose {
     while (bone >= 0 && !turned[static_cast<std::size_t>(bone)]);
     return bone;
   }
+  // Relative to that bone; in the world where there is none.
+  Eigen::Quaterniond local_turn(int bone) const noexcept {
+    const int above = turned_above(bone);
+    return above < 0 ? turns[bone] : turns[above].conjugate() * turns[bone];
+  }
+  bool locally_placed(int bone) const noexcept {
+    const int above = turned_above(bone);
+    return placed[bone] && (above < 0 || placed[above]);
+  }
+  Eigen::Vector3d local_place(int bone) const noexcept {
+    const int above = turned_above(bone);
+    return above < 0 ? places[bone] : turns[above].conjugate() * (places[bone] - places[above]);
+  }
 };
 
 // From a frame that mirrors X to ours, and back: Unity's is left-handed with X to the right.

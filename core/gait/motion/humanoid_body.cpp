@@ -4,6 +4,7 @@
 #include <cmath>
 
 #include "gait/error.h"
+#include "gait/motion/heading.h"
 #include "gait/motion/kinematics.h"
 #include "gait/motion/rotation.h"
 
@@ -27,7 +28,7 @@ std::vector<Eigen::Quaterniond> usual_pose(const Clip& clip, const JointRoles& r
   for (int frame = 0; frame < clip.frames(); frame += stride) {
     forward_kinematics(clip.skeleton, clip.pose(frame), clip.translation(frame), world, places);
     const Eigen::Vector3d across = places[roles.left.thigh] - places[roles.right.thigh];
-    const double heading = std::atan2(-across.z(), across.x());
+    const double heading = heading_across(across);
     for (std::size_t joint = 0; joint < joints; ++joint)
       seen[joint].push_back(static_cast<int>(joint) == roles.hips
                                 ? about_vertical(-heading) * world[joint]

@@ -2,6 +2,7 @@
 
 #include <cmath>
 
+#include "gait/motion/heading.h"
 #include "gait/motion/rotation.h"
 
 namespace gait {
@@ -12,7 +13,7 @@ double facing_of(const HumanoidPose& pose) noexcept {
   for (const auto& [left, right] : pairs) {
     if (!pose.placed[index_of(left)] || !pose.placed[index_of(right)]) continue;
     const Eigen::Vector3d across = pose.places[index_of(left)] - pose.places[index_of(right)];
-    if (std::hypot(across.x(), across.z()) > 0.01) return std::atan2(-across.z(), across.x());
+    if (std::hypot(across.x(), across.z()) > 0.01) return heading_across(across);
   }
   const Eigen::Quaterniond twist =
       swing_twist<double>(pose.turns[index_of(Bone::hips)], Eigen::Vector3d::UnitY()).twist;

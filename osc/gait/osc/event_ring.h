@@ -31,7 +31,6 @@ class EventRing {
     read_.store(at + 1, std::memory_order_release);
     return true;
   }
-  std::size_t capacity() const noexcept { return entries_.size(); }
 
  private:
   std::vector<T> entries_;

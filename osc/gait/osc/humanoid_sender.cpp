@@ -3,58 +3,11 @@
 #include <cmath>
 
 #include "gait/error.h"
+#include "gait/osc/neuron_joints.h"
 
 namespace gait::osc {
 
 namespace {
-
-// NeuronOSC's number of a bone, -1: none. (neuron_reader.cpp has them the other way.)
-int neuron_joint(int bone) {
-  switch (static_cast<Bone>(bone)) {
-    case Bone::hips:
-      return 0;
-    case Bone::right_upper_leg:
-      return 1;
-    case Bone::right_lower_leg:
-      return 2;
-    case Bone::right_foot:
-      return 3;
-    case Bone::left_upper_leg:
-      return 4;
-    case Bone::left_lower_leg:
-      return 5;
-    case Bone::left_foot:
-      return 6;
-    case Bone::spine:
-      return 7;
-    case Bone::chest:
-      return 8;
-    case Bone::upper_chest:
-      return 10;
-    case Bone::neck:
-      return 11;
-    case Bone::head:
-      return 12;
-    case Bone::right_shoulder:
-      return 13;
-    case Bone::right_upper_arm:
-      return 14;
-    case Bone::right_lower_arm:
-      return 15;
-    case Bone::right_hand:
-      return 16;
-    case Bone::left_shoulder:
-      return 36;
-    case Bone::left_upper_arm:
-      return 37;
-    case Bone::left_lower_arm:
-      return 38;
-    case Bone::left_hand:
-      return 39;
-    default:
-      return -1;
-  }
-}
 
 // Motive's names of the bones, for the bridge's answer to `refetch`.
 std::string motive_name(int bone) {
@@ -88,7 +41,10 @@ HumanoidSender::HumanoidSender(MocapForm form, const std::vector<int>& bones) : 
       break;
     case MocapForm::neuron:
       for (const int bone : bones)
-        if (neuron_joint(bone) >= 0) bones_.push_back(bone);
+        if (const int joint = neuron_joint(bone); joint >= 0) {
+          bones_.push_back(bone);
+          joints_.push_back(joint);
+        }
       for (std::size_t i = 0; i < bones_.size(); ++i) packets_.add("/perception_joint", "ifffffff");
       break;
     default:
@@ -104,26 +60,16 @@ void HumanoidSender::pack(const HumanoidPose& pose, double time, int frame) noex
   const auto add_turn = [&](const Eigen::Quaterniond& q) {
     add(q.x()), add(q.y()), add(q.z()), add(q.w());
   };
-  // Relative to the nearest told bone above; zeros where a place is not known.
-  const auto local = [&](int bone, Eigen::Vector3d& place, Eigen::Quaterniond& turn) {
-    const int above = pose.turned_above(bone);
-    const Eigen::Quaterniond back =
-        above < 0 ? Eigen::Quaterniond::Identity() : pose.turns[above].conjugate();
-    turn = back * pose.turns[bone];
-    const bool known = pose.placed[bone] && (above < 0 || pose.placed[above]);
-    place = known ? back * (pose.places[bone] -
-                            (above < 0 ? Eigen::Vector3d(0, 0, 0) : pose.places[above]))
-                  : Eigen::Vector3d(0, 0, 0);
+  // Zeros where a place is not known.
+  const auto place_of = [&](int bone) {
+    return pose.locally_placed(bone) ? pose.local_place(bone) : Eigen::Vector3d(0, 0, 0);
   };
-  Eigen::Vector3d place;
-  Eigen::Quaterniond turn;
   if (form_ == MocapForm::vmc) {
     add_place(Eigen::Vector3d::Zero());
     add_turn(Eigen::Quaterniond::Identity());
     for (const int bone : bones_) {
-      local(bone, place, turn);
-      add_place(mirrored(place));
-      add_turn(mirrored(turn));
+      add_place(mirrored(place_of(bone)));
+      add_turn(mirrored(pose.local_turn(bone)));
     }
     add(1);
     add(time);
@@ -131,16 +77,16 @@ void HumanoidSender::pack(const HumanoidPose& pose, double time, int frame) noex
     add(frame);
     for (const int bone : bones_) add(bone + 1);
     for (const int bone : bones_) {
-      local(bone, place, turn);
       add(bone + 1);
-      add_place(place);
+      add_place(place_of(bone));
       add(bone + 1);
-      add_turn(turn);
+      add_turn(pose.local_turn(bone));
     }
     add(frame);
   } else {
-    for (const int bone : bones_) {
-      add(neuron_joint(bone));
+    for (std::size_t i = 0; i < bones_.size(); ++i) {
+      const int bone = bones_[i];
+      add(joints_[i]);
       add_place(pose.placed[bone] ? pose.places[bone] : Eigen::Vector3d(0, 0, 0));
       add_turn(pose.turns[bone]);
     }

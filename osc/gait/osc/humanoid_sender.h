@@ -22,7 +22,7 @@ class HumanoidSender {
 
  private:
   MocapForm form_;
-  std::vector<int> bones_;
+  std::vector<int> bones_, joints_;  // joints_: by NeuronOSC's numbers, for that form
   PacketSequence packets_;
   std::vector<float> numbers_;
 };

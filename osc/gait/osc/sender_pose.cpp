@@ -77,13 +77,13 @@ bool SenderPose::take(const CapturedFrame& frame) noexcept {
   if (frame.form == MocapForm::kinect)
     take_places(frame);
   else if (in_world_)
-    take_world(frame);
+    take_world();
   else
-    take_local(frame);
+    take_local();
   return true;
 }
 
-void SenderPose::take_local(const CapturedFrame&) noexcept {
+void SenderPose::take_local() noexcept {
   local_ = told_;
   world_.turned = told_.turned;
   world_.placed.reset();
@@ -104,21 +104,17 @@ void SenderPose::take_local(const CapturedFrame&) noexcept {
   }
 }
 
-void SenderPose::take_world(const CapturedFrame&) noexcept {
+void SenderPose::take_world() noexcept {
   world_ = told_;
   local_.turned = told_.turned;
   local_.placed.reset();
   for (int bone = 0; bone < humanoid_bones; ++bone) {
     const auto at = static_cast<std::size_t>(bone);
     if (!told_.turned[at]) continue;
-    const int above = told_.turned_above(bone);
-    const Eigen::Quaterniond back =
-        above < 0 ? Eigen::Quaterniond::Identity() : told_.turns[above].conjugate();
-    local_.turns[at] = back * told_.turns[at];
-    if (!told_.placed[at] || (above >= 0 && !told_.placed[above])) continue;
+    local_.turns[at] = told_.local_turn(bone);
+    if (!told_.locally_placed(bone)) continue;
     local_.placed.set(at);
-    local_.places[at] =
-        above < 0 ? told_.places[at] : back * (told_.places[at] - told_.places[above]);
+    local_.places[at] = told_.local_place(bone);
   }
 }
 
@@ -163,13 +159,9 @@ void SenderPose::take_places(const CapturedFrame& frame) noexcept {
   }
   local_.clear();
   local_.turned = world_.turned;
-  for (int bone = 0; bone < humanoid_bones; ++bone) {
-    if (!world_.turned[static_cast<std::size_t>(bone)]) continue;
-    const int above = world_.turned_above(bone);
-    const auto here = static_cast<std::size_t>(bone);
-    local_.turns[here] =
-        above < 0 ? world_.turns[here] : world_.turns[above].conjugate() * world_.turns[here];
-  }
+  for (int bone = 0; bone < humanoid_bones; ++bone)
+    if (world_.turned[static_cast<std::size_t>(bone)])
+      local_.turns[static_cast<std::size_t>(bone)] = world_.local_turn(bone);
   local_.places[hips] = world_.places[hips];
   local_.placed[hips] = world_.placed[hips];
 }

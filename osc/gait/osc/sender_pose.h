@@ -28,8 +28,8 @@ class SenderPose {
   void judge_axes_again() noexcept { axes_judged_ = false; }
 
  private:
-  void take_local(const CapturedFrame& frame) noexcept;
-  void take_world(const CapturedFrame& frame) noexcept;
+  void take_local() noexcept;
+  void take_world() noexcept;
   void take_places(const CapturedFrame& frame) noexcept;
   void judge_axes() noexcept;
 
