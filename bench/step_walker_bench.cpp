@@ -1,12 +1,13 @@
-// What a frame of the step walker costs, and of a walk that has lost its input.
+// What a frame of the step walker costs, and of a walk on stage that has lost its input.
 #include <benchmark/benchmark.h>
 
 #include <algorithm>
 #include <chrono>
 
 #include "bench_model.h"
-#include "gait/play/continuation.h"
+#include "gait/play/body_stage.h"
 #include "gait/play/step_walker.h"
+#include "gait/play/synthesiser.h"
 
 namespace gait::bench {
 namespace {
@@ -40,10 +41,12 @@ void step_walker(benchmark::State& state) {
 }
 
 void walking_alone(benchmark::State& state) {
-  Continuation continuation(bench_model(8));
+  Synthesiser synthesiser(bench_model(8));
+  BodyStage stage(bench_model(8));
   frames(state, [&] {
-    continuation.go_on();
-    benchmark::DoNotOptimize(continuation.frame().hips);
+    synthesiser.go_on();
+    stage.show_pose(synthesiser.pose());
+    benchmark::DoNotOptimize(stage.root());
   });
 }
 

@@ -291,7 +291,7 @@ TEST(BodyStage, keeps_feet_where_they_stand_unless_told_not_to) {
   std::printf("slid %.0f mm in all, %.0f mm with feet locked\n", 1000 * free_slid.metres(),
               1000 * held_slid.metres());
   EXPECT_GT(free_slid.metres(), 0.01f);
-  EXPECT_LT(held_slid.metres(), 0.3f * free_slid.metres());
+  EXPECT_LT(held_slid.metres(), 0.4f * free_slid.metres());
   JointMotion before, after;
   before.add(came, model->frame_rate, 2, came.size());
   after.add(shown, model->frame_rate, 2, shown.size());

@@ -143,6 +143,44 @@ double knee(const Clip& clip, const WorldPoses& world, const JointRoles& roles, 
                        axis.dot(place(roles.left.thigh) - place(roles.right.thigh)));
 }
 
+// Who straightens crouched legs within a tenth of a second throws the hips up faster than a gentle
+// root follows.
+TEST(FootLock, lifts_feet_that_a_gentle_root_lets_sink) {
+  const Spoilt spoilt(0);
+  const Skeleton& skeleton = spoilt.walk.clip.skeleton;
+  RootMotion root(skeleton, spoilt.roles, 60);
+  root.set_gentle(true);
+  FootLock lock(skeleton, spoilt.roles, 60);
+  double sunk = 0, deepest = 0, knees = 0;
+  Clip clip = spoilt.walk.clip;
+  const auto lowest_ankle = [&](const Pose& pose, const Eigen::Vector3f& hips) {
+    put(clip, 0, pose, hips, spoilt.roles.hips);
+    const WorldPoses world = world_poses(clip);
+    return world.positions[static_cast<std::size_t>(spoilt.roles.right.foot)].y();
+  };
+  double ankle = 0;
+  for (int frame = 0; frame < 90; ++frame) {
+    const double bend = 0.7 * std::clamp((66 - frame) / 6.0, 0.0, 1.0);
+    Pose pose(skeleton.joints.size(), Eigen::Quaternionf::Identity());
+    for (const Leg* leg : {&spoilt.roles.right, &spoilt.roles.left}) {
+      pose[leg->thigh] = pitch(-bend);
+      pose[leg->shank] = pitch(2 * bend);
+      pose[leg->foot] = pitch(-bend);
+    }
+    const Eigen::Vector3f hips = root.advance(pose);
+    const double plain = lowest_ankle(pose, hips);
+    lock.apply(pose, root);
+    const double lifted = lowest_ankle(pose, hips);
+    if (frame == 55) ankle = lifted;
+    if (frame < 60) continue;
+    sunk = std::min(sunk, plain - ankle), deepest = std::min(deepest, lifted - ankle);
+    if (frame == 89) knees = angle_between(pose[spoilt.roles.right.shank], pitch(0));
+  }
+  EXPECT_LT(sunk, -0.02);
+  EXPECT_GT(deepest, -0.01);
+  EXPECT_LT(knees, 0.02);  // straight again in the end
+}
+
 TEST(FootLock, stretches_no_knee_further_than_it_was_or_than_eight_degrees) {
   for (const char* style : {"proud", "drunk", "manly"}) {
     const Spoilt spoilt(0.03, style);

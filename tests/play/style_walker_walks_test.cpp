@@ -11,6 +11,7 @@
 #include "gait/motion/contacts.h"
 #include "gait/motion/kinematics.h"
 #include "gait/motion/resample.h"
+#include "play/sole_height.h"
 #include "play/styled_walks.h"
 
 namespace gait {
@@ -18,6 +19,7 @@ namespace {
 
 using testing::captured_walks;
 using testing::corpus_walks;
+using testing::lowest_points;
 using testing::StyledWalks;
 using testing::Walked;
 
@@ -114,28 +116,6 @@ void expect_smooth_joins(const StyledWalks& walks) {
     EXPECT_LE(percentile(joins.acceleration, 0.999), 1.1 * percentile(captured.acceleration, 0.999))
         << model.styles[style];
   }
-}
-
-// Height of the lowest point of either foot, frame by frame.
-std::vector<double> lowest_points(const Clip& clip, const JointRoles& roles) {
-  const WorldPoses world = world_poses(clip);
-  const int joints = clip.skeleton.size();
-  std::vector<bool> foot(static_cast<std::size_t>(joints), false);
-  std::vector<double> lowest(static_cast<std::size_t>(clip.frames()), 1e9);
-  for (int joint = 0; joint < joints; ++joint) {
-    const int parent = clip.skeleton.joints[joint].parent;
-    foot[joint] =
-        joint == roles.right.foot || joint == roles.left.foot || (parent >= 0 && foot[parent]);
-    if (!foot[joint]) continue;
-    for (int frame = 0; frame < clip.frames(); ++frame) {
-      const std::size_t at = static_cast<std::size_t>(frame) * joints + joint;
-      lowest[frame] = std::min(lowest[frame], world.positions[at].y());
-      for (const Eigen::Vector3d& tip : clip.skeleton.joints[joint].tips)
-        lowest[frame] =
-            std::min(lowest[frame], (world.positions[at] + world.rotations[at] * tip).y());
-    }
-  }
-  return lowest;
 }
 
 TEST(StyleWalkerWalks, of_the_built_in_styles_are_recognised) { expect_recognised(corpus_walks()); }

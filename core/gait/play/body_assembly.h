@@ -38,6 +38,7 @@ class BodyAssembly {
   const Eigen::VectorXf& values() const noexcept { return shown_; }
   // Whether that was a whole pose, with nothing of what was shown before.
   bool whole() const noexcept { return source_ == Source::whole && hand_over_.over(); }
+  bool handing_over() const noexcept { return !hand_over_.over(); }
   int values_per_frame() const noexcept { return static_cast<int>(shown_.size()); }
   void reset() noexcept;
 

@@ -14,6 +14,8 @@ namespace {
 
 // Within this time a body comes to a stop, or starts.
 constexpr float stopping_seconds = 0.2f;
+// After a hand-over its root is still gentle.
+constexpr float gentle_seconds = 0.7f;
 
 const std::shared_ptr<const Model>& with_body(const std::shared_ptr<const Model>& model) {
   if (!model->body)
@@ -135,6 +137,7 @@ void BodyStage::reset() noexcept {
   foot_lock_.reset();
   meter_.reset();
   started_ = false;
+  gentle_left_ = 0;
   heading_ = 0;
   path_.setZero();
   feet_ = {};
@@ -165,7 +168,11 @@ void BodyStage::move() noexcept {
   heading_ = std::remainder(heading_ + going_.value() * heading_rate_ * period_,
                             2 * std::numbers::pi_v<float>);
   const Eigen::Vector3f before = walked_;
-  motion_.set_gentle(locked());
+  if (assembly_.handing_over())
+    gentle_left_ = gentle_seconds;
+  else
+    gentle_left_ = std::max(0.0f, gentle_left_ - period_);
+  motion_.set_gentle(may_lock() && (assembly_.whole() || gentle_left_ > 0));
   walked_ = motion_.advance(pose_, heading_);
   if (started_ && from_ == RootFrom::feet) {
     const Eigen::Vector3f moved = going_.value() * (walked_ - before);
@@ -186,9 +193,8 @@ void BodyStage::move() noexcept {
 
 // Who does not walk is not held: nothing says where such feet are to be.
 void BodyStage::hold_feet() noexcept {
-  foot_lock_.apply(pose_, motion_, heading_, locked() ? going_.value() : 0);
-  if (foot_lock_.correction(Foot::right).isZero(0) && foot_lock_.correction(Foot::left).isZero(0))
-    return;
+  foot_lock_.apply(pose_, motion_, heading_, may_lock() && (assembly_.whole() || assembly_.handing_over()) ? going_.value() : 0);
+  if (!foot_lock_.corrects()) return;
   for (const std::size_t joint : leg_joints_) tell_values(joint);
 }
 

@@ -3,10 +3,11 @@
 //
 // The root comes from the feet, or is what was measured with the pose, or walks on the spot. Where
 // it comes from the feet and nobody was measured, for a whole pose is shown, they stay where they
-// stand: the legs are corrected for it (FootLock). Outputs are shown as they were made. The
-// path from the feet goes on from wherever it is: a body that does not walk (stands, turns on the
-// spot) stays where it is, without a jerk when it stops or starts. One frame is 1 /
-// model.frame_rate, whoever sends it.
+// stand: the legs are corrected for it (FootLock). Outputs are shown as they were made, but for
+// two seconds after whole poses went over to them: the root goes over gently, feet that stand or
+// would sink are put where they belong, and that fades. The path from the feet goes on from
+// wherever it is: a body that does not walk (stands, turns on the spot) stays where it is, without
+// a jerk when it stops or starts. One frame is 1 / model.frame_rate, whoever sends it.
 //
 // Metres, seconds, radians; Y up; values per joint as rotation vectors relative to the references.
 // Nothing allocates, throws or locks after construction.
@@ -97,7 +98,7 @@ class BodyStage {
   static std::size_t index(Foot foot) noexcept { return foot == Foot::right ? 0 : 1; }
 
   void make() noexcept;
-  bool locked() const noexcept { return lock_ && from_ == RootFrom::feet && assembly_.whole(); }
+  bool may_lock() const noexcept { return lock_ && from_ == RootFrom::feet; }
   void move() noexcept;
   void hold_feet() noexcept;
   void tell_values(std::size_t joint) noexcept;
@@ -132,6 +133,7 @@ class BodyStage {
   float heading_rate_ = 0, scale_ = 1;
   Eigen::Vector3f place_ = Eigen::Vector3f::Zero();
   bool started_ = false;
+  float gentle_left_ = 0;  // seconds that the root is still gentle
   float heading_ = 0;
   Eigen::Vector3d path_ = Eigen::Vector3d::Zero();    // of the hips, from the place, unscaled
   Eigen::Vector3f walked_ = Eigen::Vector3f::Zero();  // by the feet, whether it may go or not

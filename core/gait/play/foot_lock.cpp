@@ -15,13 +15,13 @@ struct Range {
 
 // Found on walkers that learnt from the built-in corpus and from Bandai-Namco's captures: where
 // feet stay and no joint is much faster than without.
-constexpr Range height{0.010f, 0.025f};     // m above the ground: the foot has left it
+constexpr Range height{0.015f, 0.030f};     // m above the ground: the foot has left it
 constexpr Range speed{0.12f, 0.45f};        // m/s over the ground: it moves off
 constexpr Range landing_speed{0.4f, 1.2f};  // m/s: a foot that comes down may still be faster
 constexpr Range coming_down{-0.2f, 0.0f};   // m/s upward
-constexpr double landing_seconds = 0.02;    // in which a foot that lands is stopped
-constexpr double fading_seconds = 0.15;     // of a correction that is not held
-constexpr double release_seconds = 0.04;    // in which it begins to fade
+constexpr double fading_seconds = 0.2;      // of a correction that is not held
+constexpr double release_seconds = 0.06;    // in which it begins to fade
+constexpr float deepest = 0.007f;           // m that a foot sinks into the ground
 constexpr float limp = 0.04f;               // rad: a knee nearer to straight is bent gently
 constexpr float nothing = 1e-5f;            // m: a correction has faded
 constexpr float out_of_line = 0.1f;         // rad: less bent, a knee's axis is that of the hips too
@@ -38,10 +38,12 @@ float gain(double frame_rate, double seconds) {
 
 // In this measure of a knee's angle the squared distance from hip to ankle is linear.
 float chord(float angle) noexcept { return 2 * (1 - std::cos(angle)); }
-// Back to the angle, but as if no knee were straighter than `limp`: where a millimetre less of
-// distance bends it by whole degrees.
+// Back to the angle, but less for knees about as straight as `limp`: where a millimetre less of
+// distance bends them by whole degrees.
 float gentle_angle(float chord) noexcept {
-  return 2 * std::asin(std::min(1.0f, std::sqrt(chord + limp * limp) / 2));
+  constexpr float straight = limp * limp * limp * limp;
+  const float squared = chord * chord;
+  return 2 * std::asin(std::min(1.0f, std::sqrt(chord) / 2)) * squared / (squared + straight);
 }
 
 }  // namespace
@@ -50,7 +52,6 @@ FootLock::FootLock(const Skeleton& skeleton, const JointRoles& roles, double fra
     : hips_(roles.hips),
       joints_(skeleton.joints.size()),
       period_(static_cast<float>(1 / frame_rate)),
-      landing_gain_(gain(frame_rate, landing_seconds)),
       fading_gain_(gain(frame_rate, fading_seconds)),
       release_gain_(gain(frame_rate, release_seconds)),
       legs_{chain(skeleton, roles.right, roles.hips), chain(skeleton, roles.left, roles.hips)} {}
@@ -74,7 +75,7 @@ void FootLock::reset() noexcept {
   for (LegChain& leg : legs_) {
     leg.correction.setZero();
     leg.change.setZero();
-    leg.hold = 0;
+    leg.hold = leg.lift = 0;
   }
 }
 
@@ -92,7 +93,9 @@ void FootLock::apply(std::span<Eigen::Quaternionf> pose, const RootMotion& root,
   const Eigen::Quaternionf hips = about_vertical(heading) * pose[hips_];
   for (const Foot foot : {Foot::right, Foot::left}) {
     LegChain& leg = legs_[index(foot)];
-    hold(leg, root.sole(foot), strength);
+    const RootMotion::Sole sole = root.sole(foot);
+    hold(leg, sole, strength);
+    leg.lift = root.sunk() ? std::max(0.0f, -sole.height - deepest) : 0;
     place(leg, pose, hips);
   }
   const LegChain &right = legs_[index(Foot::right)], &left = legs_[index(Foot::left)];
@@ -107,10 +110,9 @@ void FootLock::hold(LegChain& leg, const RootMotion::Sole& sole, float strength)
   const float landing = within(sole.moved.y() / period_, coming_down);
   const Range slow{speed.from + landing * (landing_speed.from - speed.from),
                    speed.to + landing * (landing_speed.to - speed.to)};
-  const float hold = strength * within(sole.height, height) *
-                     within(std::hypot(sole.pinned.x(), sole.pinned.z()) / period_, slow) *
-                     within(leg.correction.norm(), {near, farthest});
-  leg.hold = std::min(hold, leg.hold + landing_gain_ * (1 - leg.hold));
+  leg.hold = strength * within(sole.height, height) *
+             within(std::hypot(sole.pinned.x(), sole.pinned.z()) / period_, slow) *
+             within(leg.correction.norm(), {near, farthest});
   const Eigen::Vector3f slipped(sole.moved.x(), 0, sole.moved.z());
   const Eigen::Vector3f wanted =
       -leg.hold * slipped - (1 - leg.hold) * fading_gain_ * leg.correction;
@@ -139,7 +141,8 @@ void FootLock::place(LegChain& leg, std::span<const Eigen::Quaternionf> pose,
 
 void FootLock::reach(const LegChain& leg, std::span<Eigen::Quaternionf> pose,
                      const Eigen::Quaternionf& hips, const Eigen::Vector3f& leftward) noexcept {
-  if (leg.correction.isZero(0)) return;
+  const Eigen::Vector3f correction = leg.correction + leg.lift * Eigen::Vector3f::UnitY();
+  if (correction.isZero(0)) return;
   const Link &thigh = leg.links[leg.thigh], &shank = leg.links[leg.shank], &foot = leg.links.back();
   const Eigen::Vector3f upper = shank.place - thigh.place, lower = foot.place - shank.place,
                         ankle = foot.place - thigh.place;
@@ -160,7 +163,7 @@ void FootLock::reach(const LegChain& leg, std::span<Eigen::Quaternionf> pose,
   if (!(longest > 0)) return;
   const float now = bend > 0 ? chord(bend) : 0, least = std::min(now, chord(straightest));
 
-  Eigen::Vector3f target = ankle + leg.correction;
+  Eigen::Vector3f target = ankle + correction;
   // Farther than the leg reaches: up until it does.
   const float down =
       squared + longest * (now - least) - target.x() * target.x() - target.z() * target.z();

@@ -10,14 +10,16 @@
 // grows by what the point slips; else it fades, and neither jumps. From `near` to `farthest` it
 // lets go little by little: a foot that far off was put somewhere else. Heights are left to the
 // root, which keeps standing feet within 1 mm in the mean: legs that did it, near straight as they
-// land, would stretch their knees by 8 degrees for that. No knee is stretched beyond `straightest`,
-// nor one that is straighter by itself; where a leg is too short its foot hovers instead of
-// sliding.
+// land, would stretch their knees by 8 degrees for that. Only what a gentle root would sink deeper
+// than another is lifted, by a leg that gives as it takes the weight. No knee is stretched beyond
+// `straightest`, nor one that is straighter by itself; where a leg is too short its foot hovers
+// instead of sliding.
 //
 // Units: metres, seconds, radians; Y up. Nothing allocates after construction.
 #pragma once
 
 #include <Eigen/Geometry>
+#include <algorithm>
 #include <array>
 #include <span>
 #include <vector>
@@ -30,22 +32,29 @@ namespace gait {
 
 class FootLock {
  public:
-  static constexpr float near = 0.03f, farthest = 0.05f;  // m that a foot is put back by
+  static constexpr float near = 0.05f, farthest = 0.08f;  // m that a foot is put back by
   static constexpr float straightest = 0.14f;             // rad between thigh and shank, 8 degrees
 
   // `skeleton`, `roles` and rate as the root's: what RootMotion takes can be locked.
   FootLock(const Skeleton& skeleton, const JointRoles& roles, double frame_rate);
 
   // Corrects thighs, shanks and feet of `pose`, with which `root` was advanced just now to
-  // `heading`. `strength`, 0 to 1: how much feet are held at all; at 0 what was corrected fades. A
-  // pose of another size, or with numbers in hips or legs that are not finite, stays as it is.
+  // `heading`. `strength`, 0 to 1: how much feet are held at all; at 0 what was corrected fades,
+  // and feet that sink are lifted all the same. A pose of another size, or with numbers in hips or
+  // legs that are not finite, stays as it is.
   void apply(std::span<Eigen::Quaternionf> pose, const RootMotion& root, float heading = 0,
              float strength = 1) noexcept;
   void reset() noexcept;
 
-  // What a foot is put back by, in the world, m.
+  // What a foot is put back by along the ground, in the world, m; and lifted by.
   const Eigen::Vector3f& correction(Foot foot) const noexcept {
     return legs_[index(foot)].correction;
+  }
+  float lift(Foot foot) const noexcept { return legs_[index(foot)].lift; }
+  // Whether a pose is changed at all.
+  bool corrects() const noexcept {
+    return std::ranges::any_of(
+        legs_, [](const LegChain& leg) { return leg.lift > 0 || !leg.correction.isZero(0); });
   }
   // How much a foot is held, 0 to 1.
   float hold(Foot foot) const noexcept { return legs_[index(foot)].hold; }
@@ -62,7 +71,7 @@ class FootLock {
     std::size_t thigh = 0, shank = 0;
     Eigen::Vector3f correction = Eigen::Vector3f::Zero();
     Eigen::Vector3f change = Eigen::Vector3f::Zero();  // of the correction, with the last frame
-    float hold = 0;
+    float hold = 0, lift = 0;
   };
   static std::size_t index(Foot foot) noexcept { return foot == Foot::right ? 0 : 1; }
 
@@ -76,7 +85,7 @@ class FootLock {
 
   int hips_;
   std::size_t joints_;
-  float period_, landing_gain_, fading_gain_, release_gain_;
+  float period_, fading_gain_, release_gain_;
   std::array<LegChain, 2> legs_;  // right, left
 };
 

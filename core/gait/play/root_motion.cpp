@@ -25,19 +25,21 @@ constexpr double height_seconds = 0.1 / 3;  // 95 % of a height error is gone af
 constexpr double deepest_pin = 0.008;       // m: no pinned point sinks further
 constexpr double deepest = 0.0088;          // m: nor any point under the root that follows
 constexpr double give = 0.005;              // m: deeper than that the ground pushes it out by half
+constexpr double deepest_gently = 0.05;     // m: where legs bend instead
 constexpr float fastest_start = 3.0f;       // m/s: faster than 10 km/h nobody walks
 constexpr float starting_seconds = 0.3f;    // until pins are believed enough to be smoothed
 constexpr float brisk = 1.4f;               // m/s
 constexpr double recovery_seconds = 0.2;    // what the root is behind its pins is made up for in
-constexpr double gentle_seconds = 0.02;     // of lag in speed where legs take it up
-constexpr double same_point = 0.005;        // m
+constexpr double gentle_recovery_seconds = 0.5;
+constexpr double gentle_seconds = 0.05;  // of lag in speed where legs take it up
+constexpr double same_point = 0.005;     // m
 
 // How hard the root is pushed after its pins: m/s², and more per metre that it is behind. Captured
 // hips of clean walks reach 14 m/s² in one frame of a thousand, the built-in ones' 6.
 struct Push {
   float least, per_metre;
 };
-constexpr Push push_alone{12.0f, 400.0f}, push_gently{5.0f, 200.0f};
+constexpr Push push_alone{12.0f, 400.0f}, push_gently{3.0f, 50.0f}, lift_gently{5.0f, 200.0f};
 
 float gain(double frame_rate, double seconds) {
   return static_cast<float>(1 - std::exp(-1 / (frame_rate * seconds)));
@@ -70,6 +72,7 @@ RootMotion::RootMotion(const Skeleton& skeleton, const JointRoles& roles, double
   height_gain_ = gain(frame_rate, height_seconds);
   recovery_gain_ = gain(frame_rate, recovery_seconds);
   gentle_gain_ = gain(frame_rate, gentle_seconds);
+  gentle_recovery_gain_ = gain(frame_rate, gentle_recovery_seconds);
   add_points(skeleton, roles.hips, roles.right.foot, Foot::right);
   add_points(skeleton, roles.hips, roles.left.foot, Foot::left);
   reset();
@@ -113,6 +116,7 @@ void RootMotion::reset(const Eigen::Vector3f& place) noexcept {
   pinned_moved_.setZero();
   travel_.setZero();
   walking_ = 0;
+  sunk_ = false;
   for (Point& point : points_) {
     point.place.setZero();
     point.before.setZero();
@@ -242,23 +246,30 @@ void RootMotion::follow() noexcept {
     return;
   }
   const Eigen::Vector3f behind = (pinned_ - position_).cast<float>() - pinned_moved_;
-  Eigen::Vector3f change = (pinned_moved_ + recovery_gain_ * behind) / period_ - velocity_;
+  const float recovery = gentle_ ? gentle_recovery_gain_ : recovery_gain_;
+  Eigen::Vector3f change = (pinned_moved_ + recovery * behind) / period_ - velocity_;
   if (gentle_) change *= gentle_gain_;
-  Push push = gentle_ ? push_gently : push_alone;
   // Hips are thrown the harder the faster the walk, by the square of its speed.
-  if (gentle_) push.least *= std::max(1.0f, travel_.squaredNorm() / (brisk * brisk));
-  const auto limit = [&](float distance) {
-    return std::min(push.least + push.per_metre * distance, strongest_push) * period_;
+  const float pace = gentle_ ? std::max(1.0f, travel_.squaredNorm() / (brisk * brisk)) : 1.0f;
+  const auto limit = [&](const Push& push, float distance) {
+    return std::min(pace * push.least + push.per_metre * distance, strongest_push) * period_;
   };
-  const float along = horizontal(change).norm(), most = limit(horizontal(behind).norm());
+  const float along = horizontal(change).norm(),
+              most = limit(gentle_ ? push_gently : push_alone, horizontal(behind).norm());
   if (along > most) change.x() *= most / along, change.z() *= most / along;
-  const float upward = limit(std::abs(behind.y()));
+  const float upward = limit(gentle_ ? lift_gently : push_alone, std::abs(behind.y()));
   change.y() = std::clamp(change.y(), -upward, upward);
   velocity_ += change;
   position_ += (velocity_ * period_).cast<double>();
+  stay_above_ground();
+}
+
+void RootMotion::stay_above_ground() noexcept {
   const double low = -static_cast<double>(lowest_) - position_.y();
-  if (low > give) position_.y() += 0.5 * (low - give);
-  position_.y() = std::max(position_.y(), -static_cast<double>(lowest_) - deepest);
+  sunk_ = gentle_ || (sunk_ && low > give);
+  if (!sunk_ && low > give) position_.y() += 0.5 * (low - give);
+  position_.y() =
+      std::max(position_.y(), -static_cast<double>(lowest_) - (sunk_ ? deepest_gently : deepest));
 }
 
 float RootMotion::share_of(Foot foot) const noexcept {

@@ -12,12 +12,12 @@
 // takes over from another, a hand-over moves the root by nothing and bends its speed by little.
 // The direction of travel itself comes from height alone, over half a second: it may be backward
 // or sideways. Ground is at y = 0; the lowest point comes to it within 100 ms, and is never more
-// than 9 mm below it.
+// than 9 mm below it, unless the root is gentle.
 //
 // Pins jolt where poses were mixed or reconstructed, people do not. So the root follows its pinned
 // path with limited acceleration, and makes up later for what it could not do at once: the path
-// keeps its length. What it lags behind, feet slide; where a FootLock holds them, the legs take it
-// up and the root may be smoother still.
+// keeps its length. What it lags behind, feet slide and sink; where a FootLock holds and lifts
+// them, the legs take it up and the root may be smoother still.
 //
 // Units: metres, seconds, radians; Y up. Nothing allocates after construction.
 #pragma once
@@ -49,9 +49,12 @@ class RootMotion {
   // ground.
   void reset(const Eigen::Vector3f& place = Eigen::Vector3f::Zero()) noexcept;
 
-  // Whether it is pushed gently after its pins, a little late: where the legs take up what that
-  // leaves (FootLock), or feet have no place of their own. Not at first; at any frame.
+  // Whether it is pushed gently after its pins, a little late, for whoever has a FootLock: the legs
+  // take up what that leaves. Feet then sink by up to 5 cm until they are lifted. Not at first; at
+  // any frame.
   void set_gentle(bool gentle) noexcept { gentle_ = gentle; }
+  // Whether it is gentle, or a foot is still in the ground since it was.
+  bool sunk() const noexcept { return sunk_; }
 
   Eigen::Vector3f position() const noexcept { return position_.cast<float>(); }
   Eigen::Vector3f velocity() const noexcept { return velocity_; }  // of the hips, m/s
@@ -93,10 +96,12 @@ class RootMotion {
   void weigh_points() noexcept;
   void move() noexcept;
   void follow() noexcept;
+  void stay_above_ground() noexcept;
   bool starting() const noexcept;
 
   int joints_;
-  float period_, speed_gain_, travel_gain_, height_gain_, recovery_gain_, gentle_gain_;
+  float period_, speed_gain_, travel_gain_, height_gain_, recovery_gain_;
+  float gentle_gain_, gentle_recovery_gain_;
   std::vector<Link> links_;
   std::vector<Point> points_;
   int frames_ = 0;                                    // since the (re)start
@@ -104,6 +109,7 @@ class RootMotion {
   Eigen::Vector3f travel_ = Eigen::Vector3f::Zero();  // slow velocity, by height alone
   float walking_ = 0;  // 0 standing, 1 walking: how much travel_ is to be believed
   bool gentle_ = false;
+  bool sunk_ = false;
   // By the pins, and as shown. Places in double: an hour's walk is kilometres.
   Eigen::Vector3f pinned_velocity_ = Eigen::Vector3f::Zero(), velocity_ = Eigen::Vector3f::Zero();
   Eigen::Vector3d pinned_ = Eigen::Vector3d::Zero(), position_ = Eigen::Vector3d::Zero();
