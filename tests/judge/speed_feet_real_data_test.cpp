@@ -16,6 +16,7 @@
 #include "gait/motion/kinematics.h"
 #include "gait/play/foot_lock.h"
 #include "judge/captured_speeds.h"
+#include "play/bends.h"
 #include "shared_data.h"
 
 namespace gait {
@@ -170,7 +171,7 @@ TEST(SpeedFeetRealData, both_feet_touch_for_a_while_and_none_sinks_in) {
   std::vector<std::string> names{""};
   for (const SubjectCycles& subject : captured().subjects) names.push_back(subject.subject);
   for (int kmh = 1; kmh <= 10; ++kmh) {
-    double least = 1, most = 0;
+    double least = 1, most = 0, knees = 9;
     for (const std::string& name : names) {
       SpeedWalker walking = walker();
       if (!name.empty()) walking.set_subject(name);
@@ -184,13 +185,20 @@ TEST(SpeedFeetRealData, both_feet_touch_for_a_while_and_none_sinks_in) {
         lowest = std::min({lowest, soles.right, soles.left});
       }
       EXPECT_GT(lowest, -0.01) << name << ", " << kmh << " km/h";
+      testing::BendRange bends;
+      bends.see(walk.clip, captured().body.roles);
+      knees = std::min({knees, bends.least[0], bends.least[1]});
       const double share = shortest_together(walk, world);
       least = std::min(least, share), most = std::max(most, share);
       if (kmh <= 9) {
         EXPECT_GE(share, least_together) << name << ", " << kmh << " km/h";
       }
     }
-    std::printf("%2d km/h: both feet touch for %.2f to %.2f of the cycle\n", kmh, least, most);
+    std::printf(
+        "%2d km/h: both feet touch for %.2f to %.2f of the cycle, knees bend %.1f degrees or "
+        "more\n",
+        kmh, least, most, knees * 180 / M_PI);
+    EXPECT_GE(knees, -0.01) << kmh;  // they never bend the wrong way
   }
 }
 

@@ -127,6 +127,13 @@ TEST(BadModelFile, a_field_of_the_wrong_kind_or_out_of_range_is_named) {
       {"/body/input_joints", "body.input_joints: expected 2 joints", {1}},
       {"/body/output_joints", "body.output_joints: expected 1 joints", {0, 1}},
       {"/body/heading_window", "body.heading_window", 0},
+      {"/body/hinges/0/joints", "body.hinges[0].joints: expected 3 joints, found 2", {0, 1}},
+      {"/body/hinges/0/joints", "body.hinges[0].joints: expected three joints", {1, 0, 2}},
+      {"/body/hinges/0/joints", "body.hinges[0].joints: expected three joints", {0, 1, 9}},
+      {"/body/hinges/0/axis", "body.hinges[0].axis: expected a unit vector", {1, 1, 0}},
+      {"/body/hinges/0/least", "body.hinges[0].least", -4},
+      {"/body/hinges/0/most", "body.hinges[0].most", -0.2},
+      {"/body/hinges/0/most", "body.hinges[0].most", nan},
       {"/play/decoder", "play.decoder: expected one of viterbi, forward, lag", "guess"},
       {"/play/past", "play.past", 1e9},
       {"/play/temper", "play.temper", -1},
@@ -155,7 +162,7 @@ TEST(BadModelFile, a_field_that_is_missing_is_named) {
         for (const auto& [key, unused] : value.items()) {
           std::string missing = name;
           missing += (name.empty() ? "" : ".") + key;
-          if (missing != "body" && missing != "input_mean") {
+          if (missing != "body" && missing != "body.hinges" && missing != "input_mean") {
             expect_says(error_after([&](json& bent) { bent.at(at).erase(key); }),
                         key == "format" ? "format" : missing + ": expected this field, found none");
             ++fields;

@@ -43,6 +43,7 @@ inline void expect_same(const Stream& a, const Stream& b) {
 }
 
 inline void expect_same(const Joint& a, const Joint& b);
+inline void expect_same(const Hinge& a, const Hinge& b);
 inline void expect_same(const State& a, const State& b);
 inline void expect_same(const Label& a, const Label& b);
 inline void expect_same(const Variation& a, const Variation& b);
@@ -90,14 +91,26 @@ inline void expect_same(const Label& a, const Label& b) {
   expect_same(style_durations, b.style_durations);
 }
 
+inline void expect_same(const Hinge& a, const Hinge& b) {
+  const auto& [above, joint, below, axis, least, most] = a;
+  expect_same(above, b.above);
+  expect_same(joint, b.joint);
+  expect_same(below, b.below);
+  expect_same(axis, b.axis);
+  expect_same(least, b.least);
+  expect_same(most, b.most);
+}
+
 inline void expect_same(const Body& a, const Body& b) {
-  const auto& [skeleton, roles, references, input_joints, output_joints, heading_window] = a;
+  const auto& [skeleton, roles, references, input_joints, output_joints, heading_window, hinges] =
+      a;
   expect_same(skeleton.joints, b.skeleton.joints);
   expect_same(roles, b.roles);
   expect_same(references, b.references);
   expect_same(input_joints, b.input_joints);
   expect_same(output_joints, b.output_joints);
   expect_same(heading_window, b.heading_window);
+  expect_same(hinges, b.hinges);
 }
 
 inline void expect_same(const PlayDefaults& a, const PlayDefaults& b) {

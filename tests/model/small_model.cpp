@@ -48,6 +48,7 @@ Body small_body() {
   body.input_joints = {2, 1};
   body.output_joints = {3};
   body.heading_window = 1.07;
+  body.hinges = {{0, 1, 2, Eigen::Vector3d(0.6, 0, 0.8), -0.1, 1.3}};
   return body;
 }
 

@@ -172,15 +172,15 @@ TEST(HandingOver, does_not_jump_when_the_input_of_captured_walks_stops_and_retur
 }
 
 const Eigen::MatrixXf& some_inputs() {
-  static const Eigen::MatrixXf inputs = inputs_of(corpus_walks().walks[5], *corpus_walks().model);
+  static const Eigen::MatrixXf inputs = inputs_of(corpus_walks().walks.at(5), *corpus_walks().model);
   return inputs;
 }
 
 TEST(HandingOver, shows_outputs_as_they_were_made_soon_after_they_came_back) {
   int seen = 0;
-  for (const std::size_t walk : {5, 35, 65, 95}) {
+  for (const std::size_t walk : {5, 20, 35, 50}) {
     StageChain chain(corpus_walks().model);
-    const Eigen::MatrixXf inputs = inputs_of(corpus_walks().walks[walk], chain.model());
+    const Eigen::MatrixXf inputs = inputs_of(corpus_walks().walks.at(walk), chain.model());
     feed(chain, inputs, 0, 60);
     chain.lose();
     chain.go_on(30);
@@ -212,7 +212,7 @@ TEST(HandingOver, bridges_poses_that_stop_again_at_once_and_another_walk_that_co
   feed(chain, some_inputs(), 104, 125);
   chain.lose();
   chain.go_on(60);
-  feed(chain, inputs_of(corpus_walks().walks[80], chain.model()), 30, 150, 10);
+  feed(chain, inputs_of(corpus_walks().walks.at(40), chain.model()), 30, 150, 10);
   EXPECT_FALSE(chain.shown().alone.back());
   JointMotion all;
   all.add(chain.shown().poses, rate, 3, chain.shown().frames());

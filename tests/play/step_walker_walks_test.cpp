@@ -11,7 +11,9 @@
 #include "gait/motion/kinematics.h"
 #include "gait/play/player.h"
 #include "gait/play/step_walker.h"
+#include "play/bends.h"
 #include "play/joint_motion.h"
+#include "play/sole_height.h"
 #include "play/styled_walks.h"
 
 namespace gait {
@@ -84,18 +86,6 @@ std::map<std::string, double> captured_slide(const StyledWalks& walks) {
   return means;
 }
 
-double lowest_point(const Clip& clip) {
-  const WorldPoses world = world_poses(clip);
-  double lowest = 1;
-  const std::size_t joints = clip.skeleton.joints.size();
-  for (std::size_t i = joints * 30; i < world.positions.size(); ++i) {  // from the first second on
-    lowest = std::min(lowest, world.positions[i].y());
-    for (const Eigen::Vector3d& tip : clip.skeleton.joints[i % joints].tips)
-      lowest = std::min(lowest, (world.positions[i] + world.rotations[i] * tip).y());
-  }
-  return lowest;
-}
-
 // `slide_limit`: of a style, mm per stance.
 template <typename Limit>
 void expect_like_training(const StyledWalks& walks, Limit slide_limit) {
@@ -115,7 +105,7 @@ void expect_like_training(const StyledWalks& walks, Limit slide_limit) {
       joins.add(walked.poses, model.frame_rate, static_cast<std::size_t>(contact.frame),
                 static_cast<std::size_t>(contact.frame) + 3);
     const FootSlide slide = foot_slide(walked.clip, body_roles(*model.body), walked.contacts);
-    const double lowest = lowest_point(walked.clip);
+    const double lowest = testing::lowest_of(walked.clip, body_roles(*model.body));
     std::printf("%s: %d of %d cycles recognised, %.1f mm slide, lowest point %.1f mm\n",
                 name.c_str(), walked.recognised, walked.cycles, slide.mean, 1000 * lowest);
     EXPECT_LE(slide.mean, slide_limit(name)) << name;
@@ -139,6 +129,42 @@ TEST(StepWalkerWalks, in_captured_styles_are_recognised_joined_smoothly_and_slid
   GAIT_NEEDS_SHARED_DATA("bandai-namco-2");
   const auto slide = captured_slide(captured_walks());
   expect_like_training(captured_walks(), [&](const std::string& style) { return slide.at(style); });
+}
+
+void expect_human_between_styles(const StyledWalks& walks) {
+  const Model& model = *walks.model;
+  const testing::BendRange seen = testing::bends_of(walks.walks);
+  double beyond = -9;
+  for (std::size_t a = 0; a < model.styles.size(); ++a)
+    for (std::size_t b = 0; b < a; ++b) {
+      std::vector<float> weights(model.styles.size(), 0);
+      weights[a] = weights[b] = 1;
+      StepWalker walker(walks.model);
+      ASSERT_TRUE(walker.set_weights(weights));
+      WalkRecorder recorder(*model.body, model.frame_rate);
+      for (int frame = 0; frame < 12 * model.frame_rate; ++frame) {
+        walker.advance();
+        recorder.add(walker.pose());
+      }
+      const Clip clip = recorder.clip("walked");
+      testing::BendRange bends;
+      bends.see(clip, model.body->roles);
+      const std::string pair = model.styles[a] + " and " + model.styles[b];
+      EXPECT_LE(seen.exceeded_by(bends), 0.01) << pair;
+      beyond = std::max(beyond, seen.exceeded_by(bends));
+      for (const double height : testing::lowest_points(clip, body_roles(*model.body))) {
+        EXPECT_GT(height, -0.01) << pair;
+        EXPECT_LT(height, 0.04) << pair;
+      }
+    }
+  std::printf("beyond the training's knees and elbows by %.1f degrees at most\n",
+              beyond * 180 / M_PI);
+}
+
+TEST(StepWalkerWalks, half_way_between_two_styles_are_still_human) {
+  expect_human_between_styles(corpus_walks());
+  if (std::filesystem::exists(testing::shared_data() / "bandai-namco-2"))
+    expect_human_between_styles(captured_walks());
 }
 
 }  // namespace

@@ -2,6 +2,7 @@
 
 #include <algorithm>
 #include <cmath>
+#include <numbers>
 
 #include "gait/error.h"
 #include "gait/model/body_pose.h"
@@ -118,6 +119,29 @@ std::vector<Eigen::Quaterniond> references_of(const std::vector<Seen>& seen, int
   return references;
 }
 
+// How far knees and elbows bent in any frame of any used clip, and about which axes.
+std::vector<Hinge> hinges_of(const std::vector<Seen>& seen, const Body& body) {
+  std::vector<Hinge> hinges = find_hinges(body.skeleton, body_roles(body));
+  for (Hinge& hinge : hinges) {
+    std::vector<HingeBones<double>> bones;
+    hinge.axis.setZero();
+    for (const Seen& one : seen)
+      for (int frame = 0; frame < one.poses.frames(); ++frame) {
+        bones.push_back(hinge_bones<double>(body.skeleton, hinge, one.poses.pose(frame)));
+        hinge.axis += bones.back().above.cross(bones.back().below);
+      }
+    hinge.axis.normalize();
+    hinge.least = std::numbers::pi, hinge.most = -std::numbers::pi;
+    for (const HingeBones<double>& bone : bones) {
+      const double angle = bone.angle(hinge.axis);
+      hinge.least = std::min(hinge.least, angle), hinge.most = std::max(hinge.most, angle);
+    }
+  }
+  // One that never bent has no axis.
+  std::erase_if(hinges, [](const Hinge& hinge) { return !(hinge.axis.norm() > 0.5); });
+  return hinges;
+}
+
 Eigen::MatrixXd values_of(const BodyPoses& poses, const Body& body,
                           const std::vector<int>& joints) {
   Eigen::MatrixXd values(3 * joints.size(), poses.frames());
@@ -213,6 +237,7 @@ WalkSequences walk_sequences(const std::vector<Walk>& walks, const WalkOptions& 
     seen[i].poses = body_poses(resampled(walks[result.walk_of_sequence[i]].clip, result.frame_rate),
                                result.body, seen[i].matched, seen[i].cycle_seconds);
   result.body.references = references_of(seen, result.body.skeleton.size());
+  result.body.hinges = hinges_of(seen, result.body);
   result.inputs = streams_of(result.body, result.body.input_joints);
   result.outputs = streams_of(result.body, result.body.output_joints);
 

@@ -13,6 +13,7 @@
 #include <vector>
 
 #include "gait/model/cycle_space.h"
+#include "gait/motion/hinge.h"
 #include "gait/motion/joint_roles.h"
 #include "gait/motion/observation.h"
 #include "gait/motion/skeleton.h"
@@ -66,6 +67,9 @@ struct Body {
   std::vector<Eigen::Quaterniond> references;    // per joint, chordal mean over the training clips
   std::vector<int> input_joints, output_joints;  // indices, in the order of the streams
   double heading_window = 1.1;                   // seconds in a cycle: window of the causal heading
+  // Knees and elbows with the angles that they had in training. Empty in models of before there
+  // were any.
+  std::vector<Hinge> hinges{};
 };
 
 enum class DecoderKind { viterbi, forward, lag };

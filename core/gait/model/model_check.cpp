@@ -1,6 +1,7 @@
 #include <Eigen/Cholesky>
 #include <algorithm>
 #include <cmath>
+#include <numbers>
 
 #include "gait/error.h"
 #include "gait/model/covariance_check.h"
@@ -146,6 +147,27 @@ void check_joints(const Body& body) {
   }
 }
 
+void check_hinges(const Body& body) {
+  const auto below = [&](int joint, int above) {
+    if (joint < 0 || joint >= body.skeleton.size() || above < 0) return false;
+    while (joint > above) joint = body.skeleton.joints[static_cast<std::size_t>(joint)].parent;
+    return joint == above;
+  };
+  for (std::size_t i = 0; i < body.hinges.size(); ++i) {
+    const Hinge& hinge = body.hinges[i];
+    const std::string field = item("body.hinges", i);
+    if (hinge.above == hinge.joint || !below(hinge.joint, hinge.above) ||
+        (hinge.below == -1 ? body.skeleton.joints[hinge.joint].tips.empty()
+                           : hinge.joint == hinge.below || !below(hinge.below, hinge.joint)))
+      fail(field + ".joints",
+           "three joints of the body, each below the one before; or -1 last, for a tip");
+    expect_values(hinge.axis, 3, 1, field + ".axis");
+    if (!(std::abs(hinge.axis.norm() - 1) < 1e-6)) fail(field + ".axis", "a unit vector");
+    expect_within(hinge.least, -std::numbers::pi, std::numbers::pi, field + ".least");
+    expect_within(hinge.most, hinge.least, std::numbers::pi, field + ".most");
+  }
+}
+
 void check_body(const Body& body, const Model& model) {
   check_joints(body);
   const auto check_side = [&](const std::vector<int>& joints, const std::vector<Stream>& streams,
@@ -159,6 +181,7 @@ void check_body(const Body& body, const Model& model) {
   check_side(body.input_joints, model.inputs, "body.input_joints");
   check_side(body.output_joints, model.outputs, "body.output_joints");
   expect_within(body.heading_window, 1e-3, longest_delay, "body.heading_window");
+  check_hinges(body);
 }
 
 void check_play(const PlayDefaults& play) {

@@ -127,6 +127,14 @@ Body body(const ModelField& field) {
   body.input_joints = field["input_joints"].integers();
   body.output_joints = field["output_joints"].integers();
   body.heading_window = field["heading_window"].number();
+  if (const auto hinges = field.find("hinges"))
+    for (const ModelField& item : hinges->items()) {
+      const ModelField joints = item["joints"];
+      const std::vector<int> indices = joints.integers();
+      if (indices.size() != 3) joints.fail("3 joints, found " + std::to_string(indices.size()));
+      body.hinges.push_back({indices[0], indices[1], indices[2], point(item["axis"]),
+                             item["least"].number(), item["most"].number()});
+    }
   return body;
 }
 

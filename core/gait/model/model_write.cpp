@@ -88,10 +88,17 @@ Json node(const Body& body) {
                       {"role", role_name(body.roles[i])},
                       {"reference", {reference.w(), reference.x(), reference.y(), reference.z()}}});
   }
+  Json hinges = Json::array();
+  for (const Hinge& hinge : body.hinges)
+    hinges.push_back({{"joints", {hinge.above, hinge.joint, hinge.below}},
+                      {"axis", triple(hinge.axis)},
+                      {"least", hinge.least},
+                      {"most", hinge.most}});
   return {{"joints", std::move(joints)},
           {"input_joints", body.input_joints},
           {"output_joints", body.output_joints},
-          {"heading_window", body.heading_window}};
+          {"heading_window", body.heading_window},
+          {"hinges", std::move(hinges)}};
 }
 
 Json node(const PlayDefaults& play) {

@@ -55,6 +55,7 @@ StyleWalker::StyleWalker(std::shared_ptr<const Model> model, std::uint64_t seed,
                          std::shared_ptr<const CycleTables> tables)
     : cycle_pose_(tables ? std::move(tables)
                          : make_cycle_tables(style_space_of(*model).space, *model->body)),
+      hinges_(*model->body),
       mix_(can_walk(style_space_of(*model)), neutral_weights(*model)),
       draws_(style_space_of(*model).space.kept() + 1, seed) {
   const StyleSpace& space = *model->style_space;
@@ -295,6 +296,7 @@ void StyleWalker::show() noexcept {
     scores_[i] = drawn + pinned_[place].value() * (held - drawn);
   }
   cycle_pose_.read(phase_, scores_, pose_);
+  hinges_.apply(pose_);
 }
 
 }  // namespace gait

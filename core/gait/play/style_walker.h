@@ -28,6 +28,7 @@
 #include "gait/play/cycle_draws.h"
 #include "gait/play/cycle_pose.h"
 #include "gait/play/glide.h"
+#include "gait/play/hinge_limits.h"
 #include "gait/play/style_mix.h"
 
 namespace gait {
@@ -95,6 +96,7 @@ class StyleWalker {
   void show() noexcept;
 
   CyclePose cycle_pose_;
+  HingeLimits hinges_;
   StyleMix mix_;
   CycleDraws draws_;  // one per component, then the duration's
 
