@@ -60,11 +60,12 @@ void put(Clip& clip, int frame, const Pose& pose, const Eigen::Vector3f& hips, i
 struct Walked {
   Clip plain, locked;                        // the same root for both
   std::vector<Eigen::Vector3f> right, left;  // corrections
+  std::vector<bool> right_held, left_held;
 };
 
 Walked walked(const Spoilt& spoilt, double strength = 1) {
   const Skeleton& skeleton = spoilt.walk.clip.skeleton;
-  Walked result{spoilt.walk.clip, spoilt.walk.clip, {}, {}};
+  Walked result{spoilt.walk.clip, spoilt.walk.clip, {}, {}, {}, {}};
   RootMotion root(skeleton, spoilt.roles, spoilt.rate());
   root.set_gentle(true);
   FootLock lock(skeleton, spoilt.roles, spoilt.rate());
@@ -76,6 +77,8 @@ Walked walked(const Spoilt& spoilt, double strength = 1) {
     put(result.locked, frame, pose, hips, spoilt.roles.hips);
     result.right.push_back(lock.correction(Foot::right));
     result.left.push_back(lock.correction(Foot::left));
+    result.right_held.push_back(lock.hold(Foot::right) > 0.5f);
+    result.left_held.push_back(lock.hold(Foot::left) > 0.5f);
   }
   return result;
 }
@@ -115,9 +118,15 @@ TEST(FootLock, turns_only_legs_keeps_soles_as_they_are_and_puts_ankles_where_it_
           (leg == &spoilt.roles.right ? result.right : result.left)[static_cast<std::size_t>(frame)]
               .cast<double>();
       const Eigen::Vector3d moved = locked.positions[foot] - plain.positions[foot];
-      off = std::max(off, std::hypot(moved.x() - wanted.x(), moved.z() - wanted.z()));
+      const double missed = std::hypot(moved.x() - wanted.x(), moved.z() - wanted.z());
+      // In the air a knee that is fast already is not made faster: the foot comes after.
+      const bool held =
+          (leg == &spoilt.roles.right ? result.right_held
+                                      : result.left_held)[static_cast<std::size_t>(frame)];
+      off = std::max(off, held ? missed : 0.0);
       largest = std::max(largest, wanted.norm());
-      EXPECT_GT(moved.y(), -1e-3) << "frame " << frame;  // never into the ground
+      EXPECT_LT(missed, 0.008) << "frame " << frame;
+      EXPECT_GT(moved.y(), held ? -1e-3 : -0.012) << "frame " << frame;
       EXPECT_LT(moved.y(), 0.5 * wanted.norm() + 1e-3) << "frame " << frame;
     }
     for (int joint = 0; joint < spoilt.walk.clip.skeleton.size(); ++joint) {

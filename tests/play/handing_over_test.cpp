@@ -161,7 +161,7 @@ TEST(HandingOver, does_not_jump_when_the_input_of_built_in_walks_stops_and_retur
   const HandOvers found = hand_overs(corpus_walks(), 3);
   expect_no_jumps(found);
   // Drawn feet do not slide; reconstructed ones do by millimetres.
-  EXPECT_LT(mean(found.slides), 6);
+  EXPECT_LT(mean(found.slides), 8);
 }
 
 TEST(HandingOver, does_not_jump_when_the_input_of_captured_walks_stops_and_returns) {

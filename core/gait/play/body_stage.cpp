@@ -193,8 +193,10 @@ void BodyStage::move() noexcept {
 
 // Who does not walk is not held: nothing says where such feet are to be.
 void BodyStage::hold_feet() noexcept {
-  foot_lock_.apply(pose_, motion_, heading_, may_lock() && (assembly_.whole() || assembly_.handing_over()) ? going_.value() : 0);
-  if (!foot_lock_.corrects()) return;
+  foot_lock_.apply(
+      pose_, motion_, heading_,
+      may_lock() && (assembly_.whole() || assembly_.handing_over()) ? going_.value() : 0);
+  if (!foot_lock_.corrected()) return;
   for (const std::size_t joint : leg_joints_) tell_values(joint);
 }
 

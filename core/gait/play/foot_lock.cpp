@@ -23,6 +23,7 @@ constexpr double fading_seconds = 0.2;      // of a correction that is not held
 constexpr double release_seconds = 0.06;    // in which it begins to fade
 constexpr float deepest = 0.007f;           // m that a foot sinks into the ground
 constexpr float limp = 0.04f;               // rad: a knee nearer to straight is bent gently
+constexpr float quick = 6.0f;               // rad/s: as fast knees go in any walk
 constexpr float nothing = 1e-5f;            // m: a correction has faded
 constexpr float out_of_line = 0.1f;         // rad: less bent, a knee's axis is that of the hips too
 
@@ -76,6 +77,7 @@ void FootLock::reset() noexcept {
     leg.correction.setZero();
     leg.change.setZero();
     leg.hold = leg.lift = 0;
+    leg.known = leg.corrected = false;
   }
 }
 
@@ -96,12 +98,13 @@ void FootLock::apply(std::span<Eigen::Quaternionf> pose, const RootMotion& root,
     const RootMotion::Sole sole = root.sole(foot);
     hold(leg, sole, strength);
     leg.lift = root.sunk() ? std::max(0.0f, -sole.height - deepest) : 0;
+    leg.clearance = std::max(0.0f, sole.height + leg.lift + deepest);
     place(leg, pose, hips);
   }
   const LegChain &right = legs_[index(Foot::right)], &left = legs_[index(Foot::left)];
   const Eigen::Vector3f leftward =
       (left.links[left.thigh].place - right.links[right.thigh].place).normalized();
-  for (const LegChain& leg : legs_) reach(leg, pose, hips, leftward);
+  for (LegChain& leg : legs_) reach(leg, pose, hips, leftward);
 }
 
 // How fast the foot is counts against the pins: a root that is smoother than they are moves a foot
@@ -139,10 +142,11 @@ void FootLock::place(LegChain& leg, std::span<const Eigen::Quaternionf> pose,
   }
 }
 
-void FootLock::reach(const LegChain& leg, std::span<Eigen::Quaternionf> pose,
-                     const Eigen::Quaternionf& hips, const Eigen::Vector3f& leftward) noexcept {
+void FootLock::reach(LegChain& leg, std::span<Eigen::Quaternionf> pose,
+                     const Eigen::Quaternionf& hips,
+                     const Eigen::Vector3f& leftward) const noexcept {
   const Eigen::Vector3f correction = leg.correction + leg.lift * Eigen::Vector3f::UnitY();
-  if (correction.isZero(0)) return;
+  leg.corrected = false;
   const Link &thigh = leg.links[leg.thigh], &shank = leg.links[leg.shank], &foot = leg.links.back();
   const Eigen::Vector3f upper = shank.place - thigh.place, lower = foot.place - shank.place,
                         ankle = foot.place - thigh.place;
@@ -171,8 +175,23 @@ void FootLock::reach(const LegChain& leg, std::span<Eigen::Quaternionf> pose,
   const float wanted =
       std::clamp(now + (squared - target.squaredNorm()) / longest, least, chord(3.0f));
 
-  const Eigen::Quaternionf at_knee(
-      Eigen::AngleAxisf(gentle_angle(wanted) - gentle_angle(now), axis));
+  const auto bent = [&](float to) { return bend + gentle_angle(to) - gentle_angle(now); };
+  float shown = bent(wanted);
+  if (leg.known) {
+    // As fast as the knee goes by itself, or as any does; unless that drove the foot into the
+    // ground.
+    const float most = std::max(std::abs(bend - leg.own_bend), quick * period_);
+    const float reached = target.norm() + leg.clearance,
+                least_wanted = (target.squaredNorm() - reached * reached) / longest;
+    shown = std::max(std::clamp(shown, leg.shown_bend - most, leg.shown_bend + most),
+                     std::min(shown, bent(std::max(least, wanted + least_wanted))));
+  }
+  leg.own_bend = bend, leg.shown_bend = shown;
+  leg.known = true;
+  leg.corrected = !correction.isZero(0) || std::abs(shown - bend) > 1e-5f;
+  if (!leg.corrected) return;
+
+  const Eigen::Quaternionf at_knee(Eigen::AngleAxisf(shown - bend, axis));
   const Eigen::Quaternionf at_hip =
       turn_between((upper + at_knee * lower).cast<double>(), target.cast<double>()).cast<float>();
   const auto above = [&](std::size_t i) { return i > 0 ? leg.links[i - 1].rotation : hips; };

@@ -13,13 +13,13 @@
 // land, would stretch their knees by 8 degrees for that. Only what a gentle root would sink deeper
 // than another is lifted, by a leg that gives as it takes the weight. No knee is stretched beyond
 // `straightest`, nor one that is straighter by itself; where a leg is too short its foot hovers
-// instead of sliding.
+// instead of sliding. No knee is turned faster than it goes by itself, or than knees go in walks:
+// in the air its foot comes after.
 //
 // Units: metres, seconds, radians; Y up. Nothing allocates after construction.
 #pragma once
 
 #include <Eigen/Geometry>
-#include <algorithm>
 #include <array>
 #include <span>
 #include <vector>
@@ -51,11 +51,8 @@ class FootLock {
     return legs_[index(foot)].correction;
   }
   float lift(Foot foot) const noexcept { return legs_[index(foot)].lift; }
-  // Whether a pose is changed at all.
-  bool corrects() const noexcept {
-    return std::ranges::any_of(
-        legs_, [](const LegChain& leg) { return leg.lift > 0 || !leg.correction.isZero(0); });
-  }
+  // Whether the last pose was changed at all.
+  bool corrected() const noexcept { return legs_[0].corrected || legs_[1].corrected; }
   // How much a foot is held, 0 to 1.
   float hold(Foot foot) const noexcept { return legs_[index(foot)].hold; }
 
@@ -72,6 +69,9 @@ class FootLock {
     Eigen::Vector3f correction = Eigen::Vector3f::Zero();
     Eigen::Vector3f change = Eigen::Vector3f::Zero();  // of the correction, with the last frame
     float hold = 0, lift = 0;
+    float clearance = 0;                 // of the sole before it is too deep
+    float own_bend = 0, shown_bend = 0;  // of the knee, with the last frame
+    bool known = false, corrected = false;
   };
   static std::size_t index(Foot foot) noexcept { return foot == Foot::right ? 0 : 1; }
 
@@ -80,8 +80,8 @@ class FootLock {
   void hold(LegChain& leg, const RootMotion::Sole& sole, float strength) const noexcept;
   static void place(LegChain& leg, std::span<const Eigen::Quaternionf> pose,
                     const Eigen::Quaternionf& hips) noexcept;
-  static void reach(const LegChain& leg, std::span<Eigen::Quaternionf> pose,
-                    const Eigen::Quaternionf& hips, const Eigen::Vector3f& leftward) noexcept;
+  void reach(LegChain& leg, std::span<Eigen::Quaternionf> pose, const Eigen::Quaternionf& hips,
+             const Eigen::Vector3f& leftward) const noexcept;
 
   int hips_;
   std::size_t joints_;
