@@ -105,7 +105,7 @@ TEST(SpeedWalker, stands_firmly_at_any_speed_that_was_walked_and_sinks_at_none) 
         lowest = std::min(lowest, (world.positions[i] + world.rotations[i] * tip).y());
     std::printf("%2.0f km/h: %.1f mm a stance, lowest point %.1f mm\n", kmh, slide, 1000 * lowest);
     EXPECT_GT(contacts.size(), 6u);
-    EXPECT_LT(slide, kmh <= 7 ? 7 : 40) << kmh << " km/h";
+    EXPECT_LT(slide, kmh <= 7 ? 4 : 30) << kmh << " km/h";
     EXPECT_GT(lowest, -0.01) << kmh << " km/h";
   }
 }

@@ -120,9 +120,8 @@ void expect_like_training(const StyledWalks& walks, Limit slide_limit) {
 }
 
 // Nobody's feet are on the ground as those of the built-in walks: they slide by nothing at all.
-// What is left to the walker is how a foot that still moves is stopped within a frame or two.
 TEST(StepWalkerWalks, in_built_in_styles_are_recognised_joined_smoothly_and_stand_on_the_ground) {
-  expect_like_training(corpus_walks(), [](const std::string&) { return 2.0; });
+  expect_like_training(corpus_walks(), [](const std::string&) { return 0.5; });
 }
 
 TEST(StepWalkerWalks, in_captured_styles_are_recognised_joined_smoothly_and_slide_no_more) {

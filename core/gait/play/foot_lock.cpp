@@ -15,7 +15,7 @@ struct Range {
 
 // Found on walkers that learnt from the built-in corpus and from Bandai-Namco's captures: where
 // feet stay and no joint is much faster than without.
-constexpr Range height{0.015f, 0.030f};     // m above the ground: the foot has left it
+constexpr Range height{0.025f, 0.050f};     // m above the ground: the foot has left it
 constexpr Range speed{0.12f, 0.45f};        // m/s over the ground: it moves off
 constexpr Range landing_speed{0.4f, 1.2f};  // m/s: a foot that comes down may still be faster
 constexpr Range coming_down{-0.2f, 0.0f};   // m/s upward

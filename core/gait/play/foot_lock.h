@@ -32,7 +32,7 @@ namespace gait {
 
 class FootLock {
  public:
-  static constexpr float near = 0.05f, farthest = 0.08f;  // m that a foot is put back by
+  static constexpr float near = 0.08f, farthest = 0.12f;  // m that a foot is put back by
   static constexpr float straightest = 0.14f;             // rad between thigh and shank, 8 degrees
 
   // `skeleton`, `roles` and rate as the root's: what RootMotion takes can be locked.
