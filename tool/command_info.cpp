@@ -125,6 +125,17 @@ void print_training(const Training& training) {
   }
 }
 
+void print_hinges(const Body& body) {
+  std::string text;
+  for (const Hinge& hinge : body.hinges) {
+    char angles[48];
+    std::snprintf(angles, sizeof angles, " %.0f to %.0f", hinge.least * degrees,
+                  hinge.most * degrees);
+    text += (text.empty() ? "" : ", ") + body.skeleton.joints[hinge.joint].name + angles;
+  }
+  if (!text.empty()) print_row("bends", text + " degrees");
+}
+
 void print_text(const Model& model) {
   print_row("model", model.name);
   if (!model.training.comment.empty()) print_row("", model.training.comment);
@@ -133,6 +144,7 @@ void print_text(const Model& model) {
   print_row("rate", number(model.frame_rate) + " frames/s");
   print_row("body", model.body ? std::to_string(model.body->skeleton.size()) + " joints"
                                : "none: its streams are plain values");
+  if (model.body) print_hinges(*model.body);
   print_streams("inputs", model.inputs, summaries_of_inputs(model), model.input.values,
                 model.input.statics());
   std::string history;
@@ -193,12 +205,16 @@ void print_json(const Model& model) {
                       {"seconds_longest", label.longest}});
   }
   for (const int lag : model.input.lags) lags.push_back(1000 * lag / model.frame_rate);
-  ordered_json joints = nullptr;
+  ordered_json joints = nullptr, hinges = nullptr;
   if (model.body) {
-    joints = ordered_json::array();
+    joints = ordered_json::array(), hinges = ordered_json::array();
     for (int joint = 0; joint < model.body->skeleton.size(); ++joint)
       joints.push_back({{"name", model.body->skeleton.joints[joint].name},
                         {"role", role_name(model.body->roles[joint])}});
+    for (const Hinge& hinge : model.body->hinges)
+      hinges.push_back({{"joint", model.body->skeleton.joints[hinge.joint].name},
+                        {"least_degrees", hinge.least * degrees},
+                        {"most_degrees", hinge.most * degrees}});
   }
   const PlayDefaults& play = model.play;
   const ordered_json report{{"name", model.name},
@@ -206,6 +222,7 @@ void print_json(const Model& model) {
                             {"synthetic", model.training.synthetic},
                             {"frame_rate", model.frame_rate},
                             {"joints", joints},
+                            {"hinges", hinges},
                             {"inputs", as_json(model.inputs, summaries_of_inputs(model),
                                                model.input.values, model.input.statics())},
                             {"history_ms", lags},

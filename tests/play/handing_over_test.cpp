@@ -172,7 +172,8 @@ TEST(HandingOver, does_not_jump_when_the_input_of_captured_walks_stops_and_retur
 }
 
 const Eigen::MatrixXf& some_inputs() {
-  static const Eigen::MatrixXf inputs = inputs_of(corpus_walks().walks.at(5), *corpus_walks().model);
+  static const Eigen::MatrixXf inputs =
+      inputs_of(corpus_walks().walks.at(5), *corpus_walks().model);
   return inputs;
 }
 

@@ -42,6 +42,10 @@ TEST(Info, tells_what_training_put_in) {
   EXPECT_EQ(report["outputs"]["streams"][0]["moving"], 3);
   EXPECT_NEAR(report["outputs"]["streams"][0]["deviation"],
               180 / std::numbers::pi * std::sqrt(squares), 1e-9);
+  ASSERT_EQ(report["hinges"].size(), 4u);  // right knee first
+  EXPECT_EQ(report["hinges"][0]["joint"], "RightLeg");
+  EXPECT_NEAR(report["hinges"][0]["most_degrees"],
+              180 / std::numbers::pi * model.body->hinges[0].most, 1e-9);
   EXPECT_EQ(report["spaces"]["steps"], true);
   EXPECT_EQ(report["play"]["decoder"], "viterbi");
   EXPECT_EQ(report["training"]["regularisation_chosen_by"], "given");
