@@ -72,6 +72,34 @@ TEST(HingeLimits, give_way_little_by_little_and_change_nothing_within) {
   }
 }
 
+TEST(HingeLimits, go_to_the_nearer_end_from_behind_and_may_be_narrow) {
+  Body body = *few_walks_model()->body;
+  body.hinges.resize(1);
+  Hinge& knee = body.hinges.front();
+  for (const auto& [least, most] : {std::pair(0.1, 1.2), {0.1, 0.12}, {0.3, 0.3}}) {
+    knee.least = least, knee.most = most;
+    const HingeLimits limits(body);
+    for (const auto& [angle, expected] :
+         {std::pair(3.1f, most), {3.2f, most}, {-1.0f, least}, {0.5f, std::min(0.5, most)}}) {
+      Pose pose = bent(body, knee, angle);
+      limits.apply(pose);
+      EXPECT_NEAR(angle_of(body, knee, pose), expected, 1e-3) << angle;
+    }
+  }
+}
+
+TEST(HingeLimits, are_not_learnt_where_a_joint_bends_about_many_axes) {
+  std::vector<Walk> walks = testing::few_walks();
+  const Clip& first = walks.front().clip;
+  const int forearm = find_roles(first.skeleton).joint(Role::left_forearm);
+  const std::size_t before = few_walks_model()->body->hinges.size();
+  for (Walk& walk : walks)
+    for (int frame = 0; frame < walk.clip.frames(); ++frame)
+      walk.clip.pose(frame)[forearm] =
+          Eigen::AngleAxisd(0.2 * frame, Eigen::Vector3d::UnitX()) * walk.clip.pose(frame)[forearm];
+  EXPECT_EQ(walk_sequences(walks, {}).body.hinges.size(), before - 1);
+}
+
 TEST(HingeLimits, leave_poses_as_they_are_where_none_were_learnt) {
   Body body = *few_walks_model()->body;
   const Pose came = bent(body, body.hinges.front(), -2);

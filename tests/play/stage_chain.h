@@ -39,13 +39,14 @@ struct Shown {
 
 class StageChain {
  public:
-  explicit StageChain(std::shared_ptr<const Model> model)
+  explicit StageChain(std::shared_ptr<const Model> model, OnLost on_lost = OnLost::walk)
       : model_(std::move(model)),
         recogniser_(model_),
         map_(model_),
         synthesiser_(model_),
         stage_(model_) {
     stage_.set_delay(synthesiser_.future());
+    synthesiser_.set_on_lost(on_lost);
   }
 
   // A frame of the sender's, as values of the model's inputs.

@@ -293,6 +293,10 @@ void expect_no_broken_knee(const StyledWalks& walks) {
       bends.see(walked.clip, model.body->roles);
       EXPECT_LE(seen.exceeded_by(bends), 0.08)
           << model.styles[style] << ", " << variation << ", " << exaggeration;
+      for (const int knee : {0, 1}) {
+        EXPECT_GT(bends.least[knee], -0.01) << model.styles[style];
+        EXPECT_GT(bends.most[knee], 0.5) << model.styles[style];
+      }
     }
 }
 

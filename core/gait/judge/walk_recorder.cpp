@@ -21,7 +21,7 @@ WalkRecorder::WalkRecorder(const Body& body, double frame_rate, double scale, do
       turn_(turn),
       root_(body_.skeleton, roles_, frame_rate),
       lock_(body_.skeleton, roles_, frame_rate) {
-  root_.set_gentle(true);
+  root_.set_gentle(1);
 }
 
 // Returns the hips' place.

@@ -60,11 +60,6 @@ Eigen::Quaterniond halfway(const Eigen::Quaterniond& a, const Eigen::Quaterniond
   return slerp(a, b, 0.5);
 }
 
-bool is_below(const Skeleton& skeleton, int joint, int ancestor) {
-  while (joint >= 0 && joint != ancestor) joint = skeleton.joints[joint].parent;
-  return joint == ancestor;
-}
-
 // Global rotation of a joint; joints above the hips are left out.
 Eigen::Quaterniond in_world(const Skeleton& skeleton, const Pose& pose, int joint, int hips) {
   Eigen::Quaterniond rotation = Eigen::Quaterniond::Identity();
@@ -163,8 +158,8 @@ Eigen::VectorXd standing_pose(const Body& body, const std::vector<int>& joints,
   Pose pose = body.references;
   for (const int joint : joints) {
     // Each leg from its own stance: right from phase 0, left from 0.5.
-    const bool right = is_below(skeleton, joint, roles.right.thigh);
-    const bool left = is_below(skeleton, joint, roles.left.thigh);
+    const bool right = skeleton.is_in_branch(joint, roles.right.thigh);
+    const bool left = skeleton.is_in_branch(joint, roles.left.thigh);
     const bool knee = joint == roles.right.shank || joint == roles.left.shank;
     const double contact = left ? 0.5 : 0.0;
     const double from = contact + (knee ? straight_from : left || right ? flat_from : 0.0);

@@ -2,7 +2,6 @@
 
 #include <algorithm>
 #include <cmath>
-#include <numbers>
 
 #include "gait/error.h"
 #include "gait/model/body_pose.h"
@@ -15,12 +14,9 @@ namespace gait {
 namespace {
 
 constexpr double default_frame_rate = 30;
-
-bool is_above(const Skeleton& skeleton, int joint, int below) {
-  for (int at = skeleton.joints[below].parent; at >= 0; at = skeleton.joints[at].parent)
-    if (at == joint) return true;
-  return false;
-}
+// A joint is a hinge when its bones lie so far from in line in the mean (sine of the angle), and
+// its axes agree as much.
+constexpr double least_bend = 0.05, least_agreement = 0.9;
 
 std::vector<int> named_joints(const Skeleton& skeleton, const std::vector<std::string>& names,
                               const char* which) {
@@ -62,7 +58,7 @@ Body body_of(const Clip& clip, const WalkOptions& options) {
   if (options.input_joints.empty()) {
     for (int joint = 0; joint < clip.skeleton.size(); ++joint)
       if (!contains(body.output_joints, joint) && !contains(lower, joint) &&
-          !is_above(clip.skeleton, joint, roles.hips))
+          (joint == roles.hips || !clip.skeleton.is_in_branch(roles.hips, joint)))
         body.input_joints.push_back(joint);
   } else {
     body.input_joints = named_joints(clip.skeleton, options.input_joints, "input");
@@ -119,26 +115,31 @@ std::vector<Eigen::Quaterniond> references_of(const std::vector<Seen>& seen, int
   return references;
 }
 
-// How far knees and elbows bent in any frame of any used clip, and about which axes.
+// How far knees and elbows bent, and about which axes, over all frames of all used clips but for
+// the one in a thousand at either end: what a frame of a capture that went wrong would say.
 std::vector<Hinge> hinges_of(const std::vector<Seen>& seen, const Body& body) {
-  std::vector<Hinge> hinges = find_hinges(body.skeleton, body_roles(body));
-  for (Hinge& hinge : hinges) {
+  std::vector<Hinge> hinges;
+  for (Hinge hinge : find_hinges(body.skeleton, body_roles(body))) {
     std::vector<HingeBones<double>> bones;
-    hinge.axis.setZero();
+    Eigen::Vector3d normals = Eigen::Vector3d::Zero();
+    double bent = 0;
     for (const Seen& one : seen)
       for (int frame = 0; frame < one.poses.frames(); ++frame) {
         bones.push_back(hinge_bones<double>(body.skeleton, hinge, one.poses.pose(frame)));
-        hinge.axis += bones.back().above.cross(bones.back().below);
+        const Eigen::Vector3d normal =
+            bones.back().above.normalized().cross(bones.back().below.normalized());
+        normals += normal, bent += normal.norm();
       }
-    hinge.axis.normalize();
-    hinge.least = std::numbers::pi, hinge.most = -std::numbers::pi;
-    for (const HingeBones<double>& bone : bones) {
-      const double angle = bone.angle(hinge.axis);
-      hinge.least = std::min(hinge.least, angle), hinge.most = std::max(hinge.most, angle);
-    }
+    const bool bends = bent > least_bend * static_cast<double>(bones.size());
+    if (!bends || !(normals.norm() > least_agreement * bent)) continue;
+    hinge.axis = normals.normalized();
+    std::vector<double> angles;
+    for (const HingeBones<double>& bone : bones) angles.push_back(bone.angle(hinge.axis));
+    std::sort(angles.begin(), angles.end());
+    const std::size_t outliers = angles.size() / 1000;
+    hinge.least = angles[outliers], hinge.most = angles[angles.size() - 1 - outliers];
+    hinges.push_back(hinge);
   }
-  // One that never bent has no axis.
-  std::erase_if(hinges, [](const Hinge& hinge) { return !(hinge.axis.norm() > 0.5); });
   return hinges;
 }
 

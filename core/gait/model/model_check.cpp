@@ -148,19 +148,22 @@ void check_joints(const Body& body) {
 }
 
 void check_hinges(const Body& body) {
-  const auto below = [&](int joint, int above) {
-    if (joint < 0 || joint >= body.skeleton.size() || above < 0) return false;
-    while (joint > above) joint = body.skeleton.joints[static_cast<std::size_t>(joint)].parent;
-    return joint == above;
+  const auto is_below = [&](int joint, int above) {
+    return joint < body.skeleton.size() && joint != above &&
+           body.skeleton.is_in_branch(joint, above);
   };
+  std::vector<int> joints;
   for (std::size_t i = 0; i < body.hinges.size(); ++i) {
     const Hinge& hinge = body.hinges[i];
     const std::string field = item("body.hinges", i);
-    if (hinge.above == hinge.joint || !below(hinge.joint, hinge.above) ||
+    if (!is_below(hinge.joint, hinge.above) ||
         (hinge.below == -1 ? body.skeleton.joints[hinge.joint].tips.empty()
-                           : hinge.joint == hinge.below || !below(hinge.below, hinge.joint)))
+                           : !is_below(hinge.below, hinge.joint)))
       fail(field + ".joints",
            "three joints of the body, each below the one before; or -1 last, for a tip");
+    if (std::ranges::find(joints, hinge.joint) != joints.end())
+      fail(field + ".joints", "another joint than the hinges before");
+    joints.push_back(hinge.joint);
     expect_values(hinge.axis, 3, 1, field + ".axis");
     if (!(std::abs(hinge.axis.norm() - 1) < 1e-6)) fail(field + ".axis", "a unit vector");
     expect_within(hinge.least, -std::numbers::pi, std::numbers::pi, field + ".least");

@@ -2,22 +2,14 @@
 
 namespace gait {
 
-namespace {
-
-bool is_below(const Skeleton& skeleton, int joint, int ancestor) {
-  if (joint < 0 || ancestor < 0) return false;
-  for (int at = skeleton.joints[joint].parent; at >= 0; at = skeleton.joints[at].parent)
-    if (at == ancestor) return true;
-  return false;
-}
-
-}  // namespace
-
 std::vector<Hinge> find_hinges(const Skeleton& skeleton, const JointRoles& roles) {
   std::vector<Hinge> hinges;
+  const auto is_below = [&](int joint, int above) {
+    return joint != above && skeleton.is_in_branch(joint, above);
+  };
   const auto add = [&](int above, int joint, int below) {
-    if (!is_below(skeleton, joint, above)) return;
-    if (below < 0 ? skeleton.joints[joint].tips.empty() : !is_below(skeleton, below, joint)) return;
+    if (!is_below(joint, above)) return;
+    if (below < 0 ? skeleton.joints[joint].tips.empty() : !is_below(below, joint)) return;
     Hinge hinge;
     hinge.above = above, hinge.joint = joint, hinge.below = below;
     hinges.push_back(hinge);

@@ -22,6 +22,12 @@ struct Skeleton {
 
   // Index of the joint with this very name, -1 when there is none.
   int find(std::string_view name) const;
+
+  // Whether a joint is `ancestor` or anywhere below it; -1 is nowhere.
+  bool is_in_branch(int joint, int ancestor) const {
+    while (joint >= 0 && joint != ancestor) joint = joints[static_cast<std::size_t>(joint)].parent;
+    return joint >= 0 && joint == ancestor;
+  }
 };
 
 }  // namespace gait

@@ -14,7 +14,7 @@ namespace {
 
 // Within this time a body comes to a stop, or starts.
 constexpr float stopping_seconds = 0.2f;
-// After a hand-over its root is still gentle.
+// After a hand-over its root is less and less gentle.
 constexpr float gentle_seconds = 0.7f;
 
 const std::shared_ptr<const Model>& with_body(const std::shared_ptr<const Model>& model) {
@@ -137,7 +137,7 @@ void BodyStage::reset() noexcept {
   foot_lock_.reset();
   meter_.reset();
   started_ = false;
-  gentle_left_ = 0;
+  gentle_ = 0;
   heading_ = 0;
   path_.setZero();
   feet_ = {};
@@ -168,11 +168,11 @@ void BodyStage::move() noexcept {
   heading_ = std::remainder(heading_ + going_.value() * heading_rate_ * period_,
                             2 * std::numbers::pi_v<float>);
   const Eigen::Vector3f before = walked_;
-  if (assembly_.handing_over())
-    gentle_left_ = gentle_seconds;
+  if (assembly_.whole() || assembly_.handing_over())
+    gentle_ = 1;
   else
-    gentle_left_ = std::max(0.0f, gentle_left_ - period_);
-  motion_.set_gentle(may_lock() && (assembly_.whole() || gentle_left_ > 0));
+    gentle_ = std::max(0.0f, gentle_ - period_ / gentle_seconds);
+  motion_.set_gentle(may_lock() ? gentle_ : 0);
   walked_ = motion_.advance(pose_, heading_);
   if (started_ && from_ == RootFrom::feet) {
     const Eigen::Vector3f moved = going_.value() * (walked_ - before);
@@ -243,6 +243,12 @@ void BodyStage::place_joints() noexcept {
   }
 }
 
+bool BodyStage::same_bones(const BodyStage& other) const noexcept {
+  return period_ == other.period_ && parents_ == other.parents_ && offsets_ == other.offsets_ &&
+         leg_joints_ == other.leg_joints_ &&
+         std::ranges::equal(tips_, other.tips_, {}, &Tip::offset, &Tip::offset);
+}
+
 bool BodyStage::take_over(const BodyStage& other) noexcept {
   if (positions_.size() != other.positions_.size() ||
       model_->input.values != other.model_->input.values ||
@@ -258,7 +264,11 @@ bool BodyStage::take_over(const BodyStage& other) noexcept {
   filter_.set_cutoff(other.filter_.cutoff());
   // Its path goes on from where it is; the pose begins anew in another body.
   heading_ = other.heading_;
-  path_ = other.path_;
+  path_ = other.path_ * (other.scale_ / scale_);
+  if (!same_bones(other)) return true;
+  started_ = other.started_;
+  motion_ = other.motion_, foot_lock_ = other.foot_lock_;
+  walked_ = other.walked_, gentle_ = other.gentle_;
   return true;
 }
 

@@ -97,6 +97,7 @@ class BodyStage {
   };
   static std::size_t index(Foot foot) noexcept { return foot == Foot::right ? 0 : 1; }
 
+  bool same_bones(const BodyStage& other) const noexcept;
   void make() noexcept;
   bool may_lock() const noexcept { return lock_ && from_ == RootFrom::feet; }
   void move() noexcept;
@@ -133,7 +134,7 @@ class BodyStage {
   float heading_rate_ = 0, scale_ = 1;
   Eigen::Vector3f place_ = Eigen::Vector3f::Zero();
   bool started_ = false;
-  float gentle_left_ = 0;  // seconds that the root is still gentle
+  float gentle_ = 0;  // how gentle the root is
   float heading_ = 0;
   Eigen::Vector3d path_ = Eigen::Vector3d::Zero();    // of the hips, from the place, unscaled
   Eigen::Vector3f walked_ = Eigen::Vector3f::Zero();  // by the feet, whether it may go or not

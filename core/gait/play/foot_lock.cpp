@@ -23,9 +23,9 @@ constexpr double fading_seconds = 0.2;      // of a correction that is not held
 constexpr double release_seconds = 0.06;    // in which it begins to fade
 constexpr float deepest = 0.007f;           // m that a foot sinks into the ground
 constexpr float limp = 0.04f;               // rad: a knee nearer to straight is bent gently
-constexpr float quick = 6.0f;               // rad/s: as fast knees go in any walk
-constexpr float nothing = 1e-5f;            // m: a correction has faded
-constexpr float out_of_line = 0.1f;         // rad: less bent, a knee's axis is that of the hips too
+constexpr float quick = 6.0f;     // rad/s: so fast a knee may be turned at any time; walks reach 8
+constexpr float nothing = 1e-5f;  // m: a correction has faded
+constexpr float out_of_line = 0.1f;  // rad: less bent, a knee's axis is that of the hips too
 
 // 1 up to where the range begins, 0 from its end on.
 float within(float value, const Range& range) noexcept {
@@ -143,8 +143,7 @@ void FootLock::place(LegChain& leg, std::span<const Eigen::Quaternionf> pose,
 }
 
 void FootLock::reach(LegChain& leg, std::span<Eigen::Quaternionf> pose,
-                     const Eigen::Quaternionf& hips,
-                     const Eigen::Vector3f& leftward) const noexcept {
+                     const Eigen::Quaternionf& hips, const Eigen::Vector3f& leftward) noexcept {
   const Eigen::Vector3f correction = leg.correction + leg.lift * Eigen::Vector3f::UnitY();
   leg.corrected = false;
   const Link &thigh = leg.links[leg.thigh], &shank = leg.links[leg.shank], &foot = leg.links.back();
@@ -182,9 +181,9 @@ void FootLock::reach(LegChain& leg, std::span<Eigen::Quaternionf> pose,
     // ground.
     const float most = std::max(std::abs(bend - leg.own_bend), quick * period_);
     const float reached = target.norm() + leg.clearance,
-                least_wanted = (target.squaredNorm() - reached * reached) / longest;
+                looser = (reached * reached - target.squaredNorm()) / longest;
     shown = std::max(std::clamp(shown, leg.shown_bend - most, leg.shown_bend + most),
-                     std::min(shown, bent(std::max(least, wanted + least_wanted))));
+                     std::min(shown, bent(std::max(least, wanted - looser))));
   }
   leg.own_bend = bend, leg.shown_bend = shown;
   leg.known = true;

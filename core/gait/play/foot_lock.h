@@ -9,9 +9,9 @@
 // A foot stands while its lowest point is near the ground and slow. While it does, the correction
 // grows by what the point slips; else it fades, and neither jumps. From `near` to `farthest` it
 // lets go little by little: a foot that far off was put somewhere else. Heights are left to the
-// root, which keeps standing feet within 1 mm in the mean: legs that did it, near straight as they
-// land, would stretch their knees by 8 degrees for that. Only what a gentle root would sink deeper
-// than another is lifted, by a leg that gives as it takes the weight. No knee is stretched beyond
+// root: legs that kept them, near straight as they land, would stretch their knees by 8 degrees for
+// that. Only what a gentle root would sink deeper than another is lifted, by a leg that gives as it
+// takes the weight. No knee is stretched beyond
 // `straightest`, nor one that is straighter by itself; where a leg is too short its foot hovers
 // instead of sliding. No knee is turned faster than it goes by itself, or than knees go in walks:
 // in the air its foot comes after.
@@ -46,11 +46,10 @@ class FootLock {
              float strength = 1) noexcept;
   void reset() noexcept;
 
-  // What a foot is put back by along the ground, in the world, m; and lifted by.
+  // What a foot is put back by along the ground, in the world, m.
   const Eigen::Vector3f& correction(Foot foot) const noexcept {
     return legs_[index(foot)].correction;
   }
-  float lift(Foot foot) const noexcept { return legs_[index(foot)].lift; }
   // Whether the last pose was changed at all.
   bool corrected() const noexcept { return legs_[0].corrected || legs_[1].corrected; }
   // How much a foot is held, 0 to 1.
@@ -81,7 +80,7 @@ class FootLock {
   static void place(LegChain& leg, std::span<const Eigen::Quaternionf> pose,
                     const Eigen::Quaternionf& hips) noexcept;
   void reach(LegChain& leg, std::span<Eigen::Quaternionf> pose, const Eigen::Quaternionf& hips,
-             const Eigen::Vector3f& leftward) const noexcept;
+             const Eigen::Vector3f& leftward) noexcept;
 
   int hips_;
   std::size_t joints_;

@@ -21,11 +21,6 @@ constexpr double height_window = 0.1;
 // Of thigh and shank: a knee bent by 5 degrees, as straight as it gets in walking.
 constexpr double longest_reach = 0.999;
 
-bool is_below(const Skeleton& skeleton, int joint, int ancestor) {
-  while (joint >= 0 && joint != ancestor) joint = skeleton.joints[joint].parent;
-  return joint == ancestor;
-}
-
 // Every value becomes the highest within the window, so that smoothing afterwards takes none away.
 void widen_round(std::vector<double>& values) {
   const int count = static_cast<int>(values.size());
@@ -80,7 +75,7 @@ GroundedCycle::GroundedCycle(const Body& body, const std::vector<int>& joints)
   const Leg* legs[] = {&roles_.right, &roles_.left};
   for (int side = 0; side < 2; ++side)
     for (int joint = legs[side]->foot; joint < body.skeleton.size(); ++joint) {
-      if (!is_below(body.skeleton, joint, legs[side]->foot)) continue;
+      if (!body.skeleton.is_in_branch(joint, legs[side]->foot)) continue;
       soles_[side].push_back({joint, Eigen::Vector3d::Zero()});
       for (const Eigen::Vector3d& tip : body.skeleton.joints[joint].tips)
         soles_[side].push_back({joint, tip});

@@ -25,6 +25,7 @@ constexpr double height_seconds = 0.1 / 3;  // 95 % of a height error is gone af
 constexpr double deepest_pin = 0.008;       // m: no pinned point sinks further
 constexpr double deepest = 0.0088;          // m: nor any point under the root that follows
 constexpr double give = 0.005;              // m: deeper than that the ground pushes it out by half
+constexpr double deep_still = 0.007;        // m: less is no longer sunk
 constexpr double deepest_gently = 0.05;     // m: where legs bend instead
 constexpr float fastest_start = 3.0f;       // m/s: faster than 10 km/h nobody walks
 constexpr float starting_seconds = 0.3f;    // until pins are believed enough to be smoothed
@@ -47,11 +48,6 @@ float gain(double frame_rate, double seconds) {
 
 Eigen::Vector3f horizontal(const Eigen::Vector3f& v) noexcept { return {v.x(), 0, v.z()}; }
 
-bool is_below(const Skeleton& skeleton, int joint, int ancestor) {
-  while (joint >= 0 && joint != ancestor) joint = skeleton.joints[joint].parent;
-  return joint == ancestor;
-}
-
 }  // namespace
 
 RootMotion::RootMotion(const Skeleton& skeleton, const JointRoles& roles, double frame_rate)
@@ -63,7 +59,7 @@ RootMotion::RootMotion(const Skeleton& skeleton, const JointRoles& roles, double
         "root motion: expected hips and thigh, shank and foot of both legs; "
         "some of these roles have no joint");
   for (const Leg* leg : {&roles.right, &roles.left})
-    if (!is_below(skeleton, leg->foot, roles.hips))
+    if (!skeleton.is_in_branch(leg->foot, roles.hips))
       throw Error("root motion: expected joint '" + skeleton.joints[leg->foot].name +
                   "' below the hips '" + skeleton.joints[roles.hips].name + "'");
   period_ = static_cast<float>(1 / frame_rate);
@@ -99,7 +95,7 @@ void RootMotion::add_points(const Skeleton& skeleton, int hips, int foot_joint, 
     points_.push_back(point);
   };
   for (int joint = foot_joint; joint < skeleton.size(); ++joint) {
-    if (!is_below(skeleton, joint, foot_joint)) continue;
+    if (!skeleton.is_in_branch(joint, foot_joint)) continue;
     if (joint == foot_joint || skeleton.joints[joint].offset.norm() > same_point)
       add(joint, Eigen::Vector3d::Zero());
     for (const Eigen::Vector3d& tip : skeleton.joints[joint].tips)
@@ -246,18 +242,23 @@ void RootMotion::follow() noexcept {
     return;
   }
   const Eigen::Vector3f behind = (pinned_ - position_).cast<float>() - pinned_moved_;
-  const float recovery = gentle_ ? gentle_recovery_gain_ : recovery_gain_;
+  const auto mixed = [this](float alone, float gently) {
+    return alone + gentle_ * (gently - alone);
+  };
+  const float recovery = mixed(recovery_gain_, gentle_recovery_gain_);
   Eigen::Vector3f change = (pinned_moved_ + recovery * behind) / period_ - velocity_;
-  if (gentle_) change *= gentle_gain_;
+  change *= mixed(1, gentle_gain_);
   // Hips are thrown the harder the faster the walk, by the square of its speed.
-  const float pace = gentle_ ? std::max(1.0f, travel_.squaredNorm() / (brisk * brisk)) : 1.0f;
-  const auto limit = [&](const Push& push, float distance) {
-    return std::min(pace * push.least + push.per_metre * distance, strongest_push) * period_;
+  const float pace = std::max(1.0f, travel_.squaredNorm() / (brisk * brisk));
+  const auto limit = [&](const Push& gently, float distance) {
+    const float push = mixed(push_alone.least, pace * gently.least) +
+                       mixed(push_alone.per_metre, gently.per_metre) * distance;
+    return std::min(push, strongest_push) * period_;
   };
   const float along = horizontal(change).norm(),
-              most = limit(gentle_ ? push_gently : push_alone, horizontal(behind).norm());
+              most = limit(push_gently, horizontal(behind).norm());
   if (along > most) change.x() *= most / along, change.z() *= most / along;
-  const float upward = limit(gentle_ ? lift_gently : push_alone, std::abs(behind.y()));
+  const float upward = limit(lift_gently, std::abs(behind.y()));
   change.y() = std::clamp(change.y(), -upward, upward);
   velocity_ += change;
   position_ += (velocity_ * period_).cast<double>();
@@ -266,8 +267,9 @@ void RootMotion::follow() noexcept {
 
 void RootMotion::stay_above_ground() noexcept {
   const double low = -static_cast<double>(lowest_) - position_.y();
-  sunk_ = gentle_ || (sunk_ && low > give);
-  if (!sunk_ && low > give) position_.y() += 0.5 * (low - give);
+  sunk_ = gentle_ > 0 || (sunk_ && low > deep_still);
+  if (gentle_ < 1 && low > give)
+    position_.y() += (1 - gentle_) * (sunk_ ? 0.1 : 0.5) * (low - give);
   position_.y() =
       std::max(position_.y(), -static_cast<double>(lowest_) - (sunk_ ? deepest_gently : deepest));
 }

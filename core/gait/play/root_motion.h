@@ -49,10 +49,10 @@ class RootMotion {
   // ground.
   void reset(const Eigen::Vector3f& place = Eigen::Vector3f::Zero()) noexcept;
 
-  // Whether it is pushed gently after its pins, a little late, for whoever has a FootLock: the legs
-  // take up what that leaves. Feet then sink by up to 5 cm until they are lifted. Not at first; at
-  // any frame.
-  void set_gentle(bool gentle) noexcept { gentle_ = gentle; }
+  // How gently it is pushed after its pins, 0 to 1, and a little late, for whoever has a FootLock:
+  // the legs take up what that leaves. Above 0 feet sink by up to 5 cm until they are lifted. At
+  // first 0; at any frame.
+  void set_gentle(float gentle) noexcept { gentle_ = gentle; }
   // Whether it is gentle, or a foot is still in the ground since it was.
   bool sunk() const noexcept { return sunk_; }
 
@@ -108,7 +108,7 @@ class RootMotion {
   float lowest_ = 0;                                  // height of the lowest point against the hips
   Eigen::Vector3f travel_ = Eigen::Vector3f::Zero();  // slow velocity, by height alone
   float walking_ = 0;  // 0 standing, 1 walking: how much travel_ is to be believed
-  bool gentle_ = false;
+  float gentle_ = 0;
   bool sunk_ = false;
   // By the pins, and as shown. Places in double: an hour's walk is kilometres.
   Eigen::Vector3f pinned_velocity_ = Eigen::Vector3f::Zero(), velocity_ = Eigen::Vector3f::Zero();

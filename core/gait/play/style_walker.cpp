@@ -55,8 +55,8 @@ StyleWalker::StyleWalker(std::shared_ptr<const Model> model, std::uint64_t seed,
                          std::shared_ptr<const CycleTables> tables)
     : cycle_pose_(tables ? std::move(tables)
                          : make_cycle_tables(style_space_of(*model).space, *model->body)),
-      hinges_(*model->body),
       mix_(can_walk(style_space_of(*model)), neutral_weights(*model)),
+      hinges_(*model->body),
       draws_(style_space_of(*model).space.kept() + 1, seed) {
   const StyleSpace& space = *model->style_space;
   const int components = space.space.kept();

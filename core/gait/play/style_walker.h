@@ -96,8 +96,8 @@ class StyleWalker {
   void show() noexcept;
 
   CyclePose cycle_pose_;
-  HingeLimits hinges_;
   StyleMix mix_;
+  HingeLimits hinges_;
   CycleDraws draws_;  // one per component, then the duration's
 
   // Per style, columns: scores and then the duration; mixed by the weights.
