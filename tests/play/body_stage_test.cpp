@@ -519,7 +519,7 @@ TEST(BodyStage, goes_on_where_it_is_in_another_model) {
 TEST(BodyStage, takes_no_memory) {
   if (!ForbiddenMemory::works()) GTEST_SKIP() << "a sanitizer has malloc";
   const auto& walk = sad();
-  BodyStage stage(few_walks_model());
+  BodyStage stage(few_walks_model()), next(few_walks_model());
   long allocations = 0, releases = 0;
   {
     const ForbiddenMemory forbidden;
@@ -534,6 +534,7 @@ TEST(BodyStage, takes_no_memory) {
       else
         stage.show_pose(column(walk.pose, frame));
     }
+    next.take_over(stage);
     stage.reset();
     allocations = forbidden.allocations(), releases = forbidden.releases();
   }
