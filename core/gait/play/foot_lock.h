@@ -76,7 +76,8 @@ class FootLock {
 
   static LegChain chain(const Skeleton& skeleton, const Leg& leg, int hips);
   bool usable(std::span<const Eigen::Quaternionf> pose) const noexcept;
-  void hold(LegChain& leg, const RootMotion::Sole& sole, float strength) const noexcept;
+  void hold(LegChain& leg, const RootMotion::Sole& sole, float haste,
+            float strength) const noexcept;
   static void place(LegChain& leg, std::span<const Eigen::Quaternionf> pose,
                     const Eigen::Quaternionf& hips) noexcept;
   void reach(LegChain& leg, std::span<Eigen::Quaternionf> pose, const Eigen::Quaternionf& hips,
