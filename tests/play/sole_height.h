@@ -13,13 +13,11 @@ namespace gait::testing {
 inline std::vector<double> lowest_points(const Clip& clip, const JointRoles& roles) {
   const WorldPoses world = world_poses(clip);
   const int joints = clip.skeleton.size();
-  std::vector<bool> foot(static_cast<std::size_t>(joints), false);
   std::vector<double> lowest(static_cast<std::size_t>(clip.frames()), 1e9);
   for (int joint = 0; joint < joints; ++joint) {
-    const int parent = clip.skeleton.joints[joint].parent;
-    foot[joint] =
-        joint == roles.right.foot || joint == roles.left.foot || (parent >= 0 && foot[parent]);
-    if (!foot[joint]) continue;
+    if (!clip.skeleton.is_in_branch(joint, roles.right.foot) &&
+        !clip.skeleton.is_in_branch(joint, roles.left.foot))
+      continue;
     for (int frame = 0; frame < clip.frames(); ++frame) {
       const std::size_t at = static_cast<std::size_t>(frame) * joints + joint;
       lowest[frame] = std::min(lowest[frame], world.positions[at].y());

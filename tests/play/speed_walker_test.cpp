@@ -12,10 +12,10 @@
 #include "gait/judge/foot_slide.h"
 #include "gait/judge/walk_recorder.h"
 #include "gait/model/body_pose.h"
-#include "gait/motion/kinematics.h"
 #include "gait/motion/rotation.h"
 #include "gait/play/root_motion.h"
 #include "play/forbidden_memory.h"
+#include "play/sole_height.h"
 #include "play/walks_over_speed.h"
 
 namespace gait {
@@ -97,12 +97,7 @@ TEST(SpeedWalker, stands_firmly_at_any_speed_that_was_walked_and_sinks_at_none) 
     }
     const Clip clip = recorder.clip("walked");
     const double slide = foot_slide(clip, roles, contacts).mean;
-    const WorldPoses world = world_poses(clip);
-    double lowest = 1;
-    const std::size_t joints = clip.skeleton.joints.size();
-    for (std::size_t i = 0; i < world.positions.size(); ++i)
-      for (const Eigen::Vector3d& tip : clip.skeleton.joints[i % joints].tips)
-        lowest = std::min(lowest, (world.positions[i] + world.rotations[i] * tip).y());
+    const double lowest = testing::lowest_of(clip, roles);
     std::printf("%2.0f km/h: %.1f mm a stance, lowest point %.1f mm\n", kmh, slide, 1000 * lowest);
     EXPECT_GT(contacts.size(), 6u);
     EXPECT_LT(slide, kmh <= 7 ? 4 : 30) << kmh << " km/h";

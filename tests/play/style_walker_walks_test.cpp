@@ -12,6 +12,7 @@
 #include "gait/motion/kinematics.h"
 #include "gait/motion/resample.h"
 #include "play/bends.h"
+#include "play/joint_motion.h"
 #include "play/sole_height.h"
 #include "play/styled_walks.h"
 
@@ -23,6 +24,7 @@ using testing::bends_of;
 using testing::captured_walks;
 using testing::corpus_walks;
 using testing::lowest_points;
+using testing::percentile;
 using testing::StyledWalks;
 using testing::Walked;
 
@@ -85,12 +87,6 @@ struct Movement {
     }
   }
 };
-
-double percentile(std::vector<double> values, double share) {
-  const auto at = static_cast<std::ptrdiff_t>(share * static_cast<double>(values.size() - 1));
-  std::nth_element(values.begin(), values.begin() + at, values.end());
-  return values[static_cast<std::size_t>(at)];
-}
 
 void expect_smooth_joins(const StyledWalks& walks) {
   const Model& model = *walks.model;

@@ -15,12 +15,9 @@ struct SolePoint {
 };
 
 std::vector<SolePoint> sole_points(const Skeleton& skeleton, int foot) {
-  std::vector<bool> belongs(skeleton.joints.size(), false);
   std::vector<SolePoint> points;
   for (int joint = foot; joint < skeleton.size(); ++joint) {
-    const int parent = skeleton.joints[joint].parent;
-    belongs[joint] = joint == foot || (parent >= 0 && belongs[parent]);
-    if (!belongs[joint]) continue;
+    if (!skeleton.is_in_branch(joint, foot)) continue;
     points.push_back({joint, Eigen::Vector3d::Zero()});
     for (const Eigen::Vector3d& tip : skeleton.joints[joint].tips) points.push_back({joint, tip});
   }

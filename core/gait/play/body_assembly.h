@@ -36,9 +36,8 @@ class BodyAssembly {
 
   // 3 per joint of the body, of the last frame taken.
   const Eigen::VectorXf& values() const noexcept { return shown_; }
-  bool whole() const noexcept { return source_ == Source::whole; }  // whether that was a pose
-  // Whether something of what was shown before is still in it.
-  bool handing_over() const noexcept { return !hand_over_.over(); }
+  // Whether that was a whole pose, or is still on its way from or to one.
+  bool whole() const noexcept { return source_ == Source::whole || !hand_over_.over(); }
   int values_per_frame() const noexcept { return static_cast<int>(shown_.size()); }
   void reset() noexcept;
 

@@ -168,10 +168,7 @@ void BodyStage::move() noexcept {
   heading_ = std::remainder(heading_ + going_.value() * heading_rate_ * period_,
                             2 * std::numbers::pi_v<float>);
   const Eigen::Vector3f before = walked_;
-  if (assembly_.whole() || assembly_.handing_over())
-    gentle_ = 1;
-  else
-    gentle_ = std::max(0.0f, gentle_ - period_ / gentle_seconds);
+  gentle_ = assembly_.whole() ? 1 : std::max(0.0f, gentle_ - period_ / gentle_seconds);
   motion_.set_gentle(may_lock() ? gentle_ : 0);
   walked_ = motion_.advance(pose_, heading_);
   if (started_ && from_ == RootFrom::feet) {
@@ -193,9 +190,7 @@ void BodyStage::move() noexcept {
 
 // Who does not walk is not held: nothing says where such feet are to be.
 void BodyStage::hold_feet() noexcept {
-  foot_lock_.apply(
-      pose_, motion_, heading_,
-      may_lock() && (assembly_.whole() || assembly_.handing_over()) ? going_.value() : 0);
+  foot_lock_.apply(pose_, motion_, heading_, may_lock() && assembly_.whole() ? going_.value() : 0);
   if (!foot_lock_.corrected()) return;
   for (const std::size_t joint : leg_joints_) tell_values(joint);
 }

@@ -24,9 +24,9 @@ constexpr double fading_seconds = 0.2;      // of a correction that is not held
 constexpr double release_seconds = 0.06;    // in which it begins to fade
 constexpr float deepest = 0.007f;           // m that a foot sinks into the ground
 constexpr float limp = 0.04f;               // rad: a knee nearer to straight is bent gently
-constexpr float quick = 6.0f;     // rad/s: so fast a knee may be turned at any time; walks reach 8
-constexpr float nothing = 1e-5f;  // m: a correction has faded
-constexpr float out_of_line = 0.1f;  // rad: less bent, a knee's axis is that of the hips too
+constexpr float quick = 6.0f;               // rad/s: any knee may be turned so fast
+constexpr float nothing = 1e-5f;            // m: a correction has faded
+constexpr float out_of_line = 0.1f;         // rad: less bent, a knee's axis is that of the hips too
 
 // 1 up to where the range begins, 0 from its end on.
 float within(float value, const Range& range) noexcept {

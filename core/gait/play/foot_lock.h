@@ -11,10 +11,10 @@
 // lets go little by little: a foot that far off was put somewhere else. Heights are left to the
 // root: legs that kept them, near straight as they land, would stretch their knees by 8 degrees for
 // that. Only what a gentle root would sink deeper than another is lifted, by a leg that gives as it
-// takes the weight. No knee is stretched beyond
-// `straightest`, nor one that is straighter by itself; where a leg is too short its foot hovers
-// instead of sliding. No knee is turned faster than it goes by itself, or than knees go in walks:
-// in the air its foot comes after.
+// takes the weight. No knee is stretched beyond `straightest`, nor one that is straighter by
+// itself; where a leg is too short its foot hovers instead of sliding. No knee is turned faster
+// than it goes by itself, or than 6 rad/s, unless its foot would sink: in the air the foot comes
+// after.
 //
 // Units: metres, seconds, radians; Y up. Nothing allocates after construction.
 #pragma once
