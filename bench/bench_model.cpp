@@ -6,8 +6,8 @@
 #include <numbers>
 #include <random>
 
-#include "gait/judge/walk_model.h"
 #include "gait/motion/rotation.h"
+#include "gait/teach/walk_model.h"
 
 namespace gait::bench {
 

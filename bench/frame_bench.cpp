@@ -9,10 +9,10 @@
 #include <random>
 
 #include "bench_model.h"
+#include "gait/play/recognise/state_tables.h"
+#include "gait/play/recognise/triangular.h"
 #include "gait/play/reconstructor.h"
-#include "gait/play/state_tables.h"
-#include "gait/play/trajectory.h"
-#include "gait/play/triangular.h"
+#include "gait/play/synthesise/trajectory.h"
 
 namespace gait::bench {
 namespace {

@@ -5,9 +5,9 @@
 #include <chrono>
 
 #include "bench_model.h"
-#include "gait/play/body_stage.h"
-#include "gait/play/step_walker.h"
-#include "gait/play/synthesiser.h"
+#include "gait/play/body/body_stage.h"
+#include "gait/play/synthesise/step_walker.h"
+#include "gait/play/synthesise/synthesiser.h"
 
 namespace gait::bench {
 namespace {

@@ -2,11 +2,11 @@
 #include <benchmark/benchmark.h>
 
 #include "gait/corpus/corpus.h"
-#include "gait/judge/walk_model.h"
 #include "gait/learn/cycles.h"
 #include "gait/learn/principal_components.h"
-#include "gait/play/root_motion.h"
-#include "gait/play/style_walker.h"
+#include "gait/play/body/root_motion.h"
+#include "gait/play/cycles/style_walker.h"
+#include "gait/teach/walk_model.h"
 
 namespace gait::bench {
 namespace {

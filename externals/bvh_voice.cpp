@@ -4,7 +4,7 @@
 #include "gait/corpus/demo_motion.h"
 #include "gait/corpus/walk_style.h"
 #include "gait/error.h"
-#include "gait/motion/bvh.h"
+#include "gait/files/bvh.h"
 #include "pd/worker.h"
 
 namespace gait::pd {

@@ -6,8 +6,8 @@
 #include <memory>
 #include <string>
 
-#include "gait/play/clip_player.h"
-#include "gait/play/pose_recorder.h"
+#include "gait/play/clips/clip_player.h"
+#include "gait/play/clips/pose_recorder.h"
 #include "pd/models.h"
 #include "pd/ticker.h"
 

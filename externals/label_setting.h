@@ -5,7 +5,7 @@
 #include <string>
 #include <vector>
 
-#include "gait/play/synthesiser.h"
+#include "gait/play/synthesise/synthesiser.h"
 #include "pd/arguments.h"
 
 namespace gait::pd {

@@ -6,7 +6,7 @@
 #include <string>
 #include <vector>
 
-#include "gait/play/live_recogniser.h"
+#include "gait/play/recognise/live_recogniser.h"
 #include "pd/outlet.h"
 
 namespace gait::pd {

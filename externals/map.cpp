@@ -1,8 +1,8 @@
 // [gait.map NAME]: carries the style of what was observed over to the output (T14 §4.2).
 #include <algorithm>
 
-#include "gait/play/observation_map.h"
-#include "gait/play/observation_message.h"
+#include "gait/play/map/observation_map.h"
+#include "gait/play/map/observation_message.h"
 #include "objects.h"
 #include "pd/models.h"
 #include "pd/worker.h"

@@ -1,7 +1,7 @@
 // [gait.pca NAME style|speed]: walks by itself in a space of cycles (T10, G04).
 #include "cycle_walking.h"
 #include "gait/error.h"
-#include "gait/play/cycle_projector.h"
+#include "gait/play/cycles/cycle_projector.h"
 #include "objects.h"
 #include "pd/ticker.h"
 #include "pd/worker.h"

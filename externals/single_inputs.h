@@ -2,7 +2,7 @@
 // reference), `quat J x y z w`, `euler J ORDER a b c` (degrees).
 #pragma once
 
-#include "gait/play/input_stream.h"
+#include "gait/play/input/input_stream.h"
 #include "pd/arguments.h"
 
 namespace gait::pd {

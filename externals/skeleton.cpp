@@ -1,5 +1,5 @@
 // [gait.skeleton NAME]: the body in the world: parts put together, walking by its feet.
-#include "gait/play/body_stage.h"
+#include "gait/play/body/body_stage.h"
 #include "joint_argument.h"
 #include "objects.h"
 #include "pd/models.h"

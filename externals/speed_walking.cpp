@@ -1,7 +1,7 @@
 // [gait.pca NAME speed]: the speed walker's messages.
 #include "cycle_walking.h"
 #include "gait/error.h"
-#include "gait/play/speed_walker.h"
+#include "gait/play/cycles/speed_walker.h"
 
 namespace gait::pd {
 

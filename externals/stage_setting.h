@@ -18,7 +18,7 @@
 #include <utility>
 #include <vector>
 
-#include "gait/play/body_stage.h"
+#include "gait/play/body/body_stage.h"
 #include "pd/outlet.h"
 
 namespace gait::pd {

@@ -12,7 +12,7 @@
 #include <string>
 #include <vector>
 
-#include "gait/play/synthesiser.h"
+#include "gait/play/synthesise/synthesiser.h"
 #include "pd/outlet.h"
 
 namespace gait::pd {

@@ -3,7 +3,7 @@
 
 #include "cycle_walking.h"
 #include "gait/error.h"
-#include "gait/play/style_walker.h"
+#include "gait/play/cycles/style_walker.h"
 #include "style_setting.h"
 
 namespace gait::pd {

@@ -6,7 +6,7 @@
 #include <string>
 #include <vector>
 
-#include "gait/judge/takes_file.h"
+#include "gait/teach/takes_file.h"
 
 namespace gait::pd {
 

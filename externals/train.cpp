@@ -6,9 +6,9 @@
 
 #include "gait/corpus/demo_model.h"
 #include "gait/error.h"
-#include "gait/judge/walk_takes.h"
 #include "gait/model/body_motion.h"
 #include "gait/model/model_file.h"
+#include "gait/teach/walk_takes.h"
 #include "objects.h"
 #include "pd/models.h"
 #include "pd/ticker.h"

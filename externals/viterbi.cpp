@@ -1,8 +1,8 @@
 // [gait.viterbi~ NAME -signals n | -mc]: recognises steps and style (T14) in frames that come as
 // messages or signals, and runs a phase clock beside the walk.
-#include "gait/play/live_recogniser.h"
-#include "gait/play/observation_message.h"
-#include "gait/play/sender_clock.h"
+#include "gait/play/input/sender_clock.h"
+#include "gait/play/map/observation_message.h"
+#include "gait/play/recognise/live_recogniser.h"
 #include "listening.h"
 #include "multichannel.h"
 #include "objects.h"

@@ -7,8 +7,8 @@
 #include <string>
 #include <vector>
 
+#include "gait/files/bvh.h"
 #include "gait/motion/body_frame.h"
-#include "gait/motion/bvh.h"
 #include "gait/motion/clip.h"
 #include "gait/motion/joint_roles.h"
 

@@ -13,8 +13,8 @@
 #include "commands.h"
 #include "gait/corpus/corpus.h"
 #include "gait/error.h"
-#include "gait/motion/bvh.h"
-#include "gait/motion/label_file.h"
+#include "gait/files/bvh.h"
+#include "gait/files/label_file.h"
 #include "number_words.h"
 #include "progress.h"
 

@@ -9,8 +9,8 @@
 #include "clip_reader.h"
 #include "commands.h"
 #include "gait/error.h"
+#include "gait/files/label_file.h"
 #include "gait/motion/contacts.h"
-#include "gait/motion/label_file.h"
 
 namespace gait::tool {
 

@@ -7,7 +7,7 @@
 #include <thread>
 
 #include "gait/error.h"
-#include "gait/motion/bvh.h"
+#include "gait/files/bvh.h"
 #include "gait/osc/receiver.h"
 #include "gait/osc/recording.h"
 #include "interrupt.h"

@@ -7,9 +7,9 @@
 #include <string>
 
 #include "commands.h"
+#include "draw/model_figures.h"
 #include "gait/corpus/demo_model.h"
 #include "model_argument.h"
-#include "model_figures.h"
 #include "number_words.h"
 
 namespace gait::tool {

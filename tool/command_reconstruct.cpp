@@ -8,7 +8,7 @@
 #include "commands.h"
 #include "decision_table.h"
 #include "gait/corpus/demo_model.h"
-#include "gait/judge/reconstructed_file.h"
+#include "gait/offline/reconstructed_file.h"
 #include "model_argument.h"
 #include "output_file.h"
 #include "play_options.h"

@@ -8,18 +8,18 @@
 #include <string>
 #include <vector>
 
-#include "canvas.h"
 #include "clip_reader.h"
 #include "commands.h"
-#include "film.h"
-#include "film_strip.h"
+#include "draw/canvas.h"
+#include "draw/film.h"
+#include "draw/film_strip.h"
+#include "draw/speed_grid.h"
+#include "draw/walk_view.h"
 #include "gait/corpus/demo_model.h"
 #include "gait/error.h"
 #include "output_file.h"
 #include "progress.h"
-#include "speed_grid.h"
 #include "speed_words.h"
-#include "walk_view.h"
 
 namespace gait::tool {
 

@@ -7,8 +7,8 @@
 
 #include "commands.h"
 #include "gait/corpus/demo_model.h"
-#include "gait/judge/planned_walk.h"
-#include "gait/motion/bvh.h"
+#include "gait/files/bvh.h"
+#include "gait/offline/planned_walk.h"
 #include "model_argument.h"
 #include "number_range.h"
 #include "number_words.h"

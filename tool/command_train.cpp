@@ -12,11 +12,11 @@
 
 #include "commands.h"
 #include "gait/error.h"
-#include "gait/judge/walk_model.h"
-#include "gait/judge/walks_over_speed.h"
 #include "gait/learn/parallel.h"
 #include "gait/model/model_file.h"
 #include "gait/motion/rest_calibration.h"
+#include "gait/teach/walk_model.h"
+#include "gait/teach/walks_over_speed.h"
 #include "interrupt.h"
 #include "number_range.h"
 #include "output_file.h"

@@ -3,7 +3,7 @@
 
 #include <filesystem>
 
-#include "gait/judge/reconstructed_clip.h"
+#include "gait/offline/reconstructed_clip.h"
 
 namespace gait::tool {
 

@@ -4,7 +4,7 @@
 #include <string>
 #include <vector>
 
-#include "gait/judge/planned_walk.h"
+#include "gait/offline/planned_walk.h"
 
 namespace gait::tool {
 

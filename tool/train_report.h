@@ -4,7 +4,7 @@
 
 #include <string>
 
-#include "gait/judge/walk_model.h"
+#include "gait/teach/walk_model.h"
 #include "walk_files.h"
 
 namespace gait::tool {

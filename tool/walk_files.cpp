@@ -11,7 +11,7 @@
 
 #include "commands.h"
 #include "gait/error.h"
-#include "gait/motion/label_file.h"
+#include "gait/files/label_file.h"
 #include "manifest.h"
 #include "name_pattern.h"
 

@@ -7,10 +7,10 @@
 #include <string>
 
 #include "gait/model/model.h"
-#include "gait/play/cycle_pose.h"
-#include "gait/play/speed_tables.h"
-#include "gait/play/state_tables.h"
-#include "gait/play/step_tables.h"
+#include "gait/play/cycles/cycle_pose.h"
+#include "gait/play/cycles/speed_tables.h"
+#include "gait/play/recognise/state_tables.h"
+#include "gait/play/synthesise/step_tables.h"
 #include "pd/outlet.h"
 #include "pd/perf.h"
 #include "pd/report.h"

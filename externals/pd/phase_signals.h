@@ -9,7 +9,7 @@
 #include <functional>
 #include <optional>
 
-#include "gait/play/phase_clock.h"
+#include "gait/play/recognise/phase_clock.h"
 #include "pd/outlet.h"
 #include "pd/ticker.h"
 

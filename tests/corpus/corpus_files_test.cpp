@@ -5,8 +5,8 @@
 
 #include "gait/corpus/corpus.h"
 #include "gait/error.h"
-#include "gait/motion/bvh.h"
-#include "gait/motion/label_file.h"
+#include "gait/files/bvh.h"
+#include "gait/files/label_file.h"
 #include "gait/motion/rotation.h"
 
 namespace gait {

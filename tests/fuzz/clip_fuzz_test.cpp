@@ -4,10 +4,10 @@
 #include "fuzz/damage.h"
 #include "gait/corpus/corpus.h"
 #include "gait/error.h"
+#include "gait/files/bvh.h"
 #include "gait/learn/cycles.h"
 #include "gait/learn/walk_sequences.h"
 #include "gait/motion/body_frame.h"
-#include "gait/motion/bvh.h"
 #include "gait/motion/contacts.h"
 #include "gait/motion/joint_roles.h"
 

@@ -6,7 +6,7 @@
 #include "fuzz/damage.h"
 #include "gait/corpus/corpus.h"
 #include "gait/error.h"
-#include "gait/motion/label_file.h"
+#include "gait/files/label_file.h"
 
 namespace gait {
 namespace {

@@ -8,14 +8,14 @@
 #include "fuzz/damage.h"
 #include "gait/corpus/corpus.h"
 #include "gait/error.h"
-#include "gait/judge/walk_model.h"
-#include "gait/judge/walks_over_speed.h"
 #include "gait/learn/trainer.h"
 #include "gait/model/model_file.h"
+#include "gait/play/cycles/speed_walker.h"
+#include "gait/play/cycles/style_walker.h"
 #include "gait/play/reconstructor.h"
-#include "gait/play/speed_walker.h"
-#include "gait/play/step_walker.h"
-#include "gait/play/style_walker.h"
+#include "gait/play/synthesise/step_walker.h"
+#include "gait/teach/walk_model.h"
+#include "gait/teach/walks_over_speed.h"
 
 namespace gait {
 namespace {

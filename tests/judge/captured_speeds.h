@@ -5,7 +5,7 @@
 #include <vector>
 
 #include "gait/learn/speed_space.h"
-#include "gait/play/speed_walker.h"
+#include "gait/play/cycles/speed_walker.h"
 
 namespace gait::testing {
 

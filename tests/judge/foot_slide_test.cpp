@@ -5,8 +5,8 @@
 #include <cmath>
 
 #include "gait/error.h"
+#include "gait/files/bvh.h"
 #include "gait/motion/body_frame.h"
-#include "gait/motion/bvh.h"
 #include "gait/motion/contacts.h"
 #include "gait/motion/rotation.h"
 #include "shared_data.h"

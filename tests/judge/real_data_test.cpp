@@ -5,7 +5,7 @@
 #include <numbers>
 
 #include "gait/judge/evaluation.h"
-#include "gait/judge/walk_model.h"
+#include "gait/teach/walk_model.h"
 #include "judge/real_walks.h"
 #include "shared_data.h"
 

@@ -3,8 +3,8 @@
 #include <algorithm>
 #include <filesystem>
 
+#include "gait/files/bvh.h"
 #include "gait/motion/body_frame.h"
-#include "gait/motion/bvh.h"
 #include "shared_data.h"
 
 namespace gait::testing {

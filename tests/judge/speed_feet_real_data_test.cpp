@@ -9,14 +9,14 @@
 #include <ctime>
 
 #include "gait/judge/foot_slide.h"
-#include "gait/judge/walk_recorder.h"
 #include "gait/learn/speed_space.h"
 #include "gait/model/body_pose.h"
 #include "gait/motion/contacts.h"
 #include "gait/motion/kinematics.h"
-#include "gait/play/foot_lock.h"
+#include "gait/offline/walk_recorder.h"
+#include "gait/play/body/foot_lock.h"
 #include "judge/captured_speeds.h"
-#include "play/bends.h"
+#include "play/body/bends.h"
 #include "shared_data.h"
 
 namespace gait {

@@ -11,9 +11,9 @@
 
 #include "gait/corpus/corpus.h"
 #include "gait/error.h"
-#include "gait/judge/walk_model.h"
 #include "gait/learn/cycles.h"
 #include "gait/learn/walk_sequences.h"
+#include "gait/teach/walk_model.h"
 
 namespace gait {
 namespace {

@@ -11,7 +11,7 @@
 #include "gait/learn/standing_pose.h"
 #include "gait/motion/kinematics.h"
 #include "gait/motion/rotation.h"
-#include "play/walks_over_speed.h"
+#include "play/cycles/walks_over_speed.h"
 
 namespace gait {
 namespace {

@@ -7,11 +7,11 @@
 #include <map>
 #include <numbers>
 
+#include "files/small_bvh.h"
 #include "gait/error.h"
-#include "gait/motion/bvh.h"
+#include "gait/files/bvh.h"
 #include "gait/motion/kinematics.h"
 #include "gait/motion/rotation.h"
-#include "motion/small_bvh.h"
 #include "shared_data.h"
 
 namespace gait {

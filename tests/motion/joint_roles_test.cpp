@@ -5,9 +5,9 @@
 #include <fstream>
 #include <nlohmann/json.hpp>
 
+#include "files/small_bvh.h"
 #include "gait/error.h"
-#include "gait/motion/bvh.h"
-#include "motion/small_bvh.h"
+#include "gait/files/bvh.h"
 #include "shared_data.h"
 
 namespace gait {

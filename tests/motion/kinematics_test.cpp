@@ -7,7 +7,7 @@
 #include <nlohmann/json.hpp>
 #include <random>
 
-#include "gait/motion/bvh.h"
+#include "gait/files/bvh.h"
 #include "shared_data.h"
 
 namespace gait {

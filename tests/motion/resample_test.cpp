@@ -6,7 +6,7 @@
 #include <limits>
 
 #include "gait/error.h"
-#include "gait/motion/bvh.h"
+#include "gait/files/bvh.h"
 #include "gait/motion/rotation.h"
 #include "shared_data.h"
 

@@ -1,6 +1,6 @@
 // [gait.bvh]: what it plays is what the core plays, what it records can be played and written, and
 // what it refuses.
-#include "gait/motion/bvh.h"
+#include "gait/files/bvh.h"
 
 #include <gtest/gtest.h>
 
@@ -9,7 +9,7 @@
 #include "gait/corpus/corpus.h"
 #include "gait/corpus/demo_motion.h"
 #include "gait/model/model_file.h"
-#include "gait/play/clip_player.h"
+#include "gait/play/clips/clip_player.h"
 #include "patches/patch.h"
 
 namespace gait::testing {

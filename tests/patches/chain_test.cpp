@@ -4,8 +4,8 @@
 
 #include <fstream>
 
-#include "gait/judge/reconstructed_clip.h"
 #include "gait/motion/rotation.h"
+#include "gait/offline/reconstructed_clip.h"
 #include "patches/viterbi_patch.h"
 
 namespace gait::testing {

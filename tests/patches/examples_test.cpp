@@ -101,7 +101,9 @@ Sound play(const std::string& example, const std::vector<Told>& messages, double
            bool live = false) {
   std::string folder = ::testing::TempDir() + "gait_example_XXXXXX";
   EXPECT_NE(mkdtemp(folder.data()), nullptr);
-  for (const auto& entry : fs::directory_iterator(GAIT_SOURCE "/examples")) {
+  fs::create_directory(folder + "/parts");
+  for (const auto& entry : fs::recursive_directory_iterator(GAIT_SOURCE "/examples")) {
+    if (!entry.is_regular_file()) continue;
     std::ifstream in(entry.path());
     std::string text{std::istreambuf_iterator<char>(in), {}};
     if (entry.path().filename() == example + ".pd") {
@@ -109,7 +111,7 @@ Sound play(const std::string& example, const std::vector<Told>& messages, double
       text = replaced(text, " dac~;", " heard;");
       text = replaced(text, "gait.bvh gait-demo", "gait.bvh gait-demo -blocking");
     }
-    std::ofstream(folder + "/" + entry.path().filename().string()) << text;
+    std::ofstream(fs::path(folder) / fs::relative(entry.path(), GAIT_SOURCE "/examples")) << text;
   }
   std::ofstream(folder + "/heard.pd")
       << "#N canvas 0 0 300 200 12;\n#X obj 10 10 inlet~;\n#X obj 100 10 inlet~;\n"

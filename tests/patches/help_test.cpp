@@ -18,7 +18,7 @@ std::vector<fs::path> patches() {
   std::vector<fs::path> files;
   for (const char* folder : {"help_patches", "examples"})
     if (fs::exists(fs::path(GAIT_SOURCE) / folder))
-      for (const auto& entry : fs::directory_iterator(fs::path(GAIT_SOURCE) / folder))
+      for (const auto& entry : fs::recursive_directory_iterator(fs::path(GAIT_SOURCE) / folder))
         if (entry.path().extension() == ".pd") files.push_back(entry.path());
   std::ranges::sort(files);
   return files;
@@ -49,7 +49,7 @@ TEST(HelpPatches, open_without_an_error) {
     patch.object("gait.model gait-demo -blocking");
     patch.connect(begin, 0,
                   patch.message("; pd open " + file.filename().string() + " " GAIT_PD_FOLDER "/" +
-                                file.parent_path().filename().string()));
+                                fs::relative(file.parent_path(), GAIT_SOURCE).string()));
     patch.quit_after(2000);
     const PdRun run = run_pd(patch);
     EXPECT_EQ(run.exit_code, 0) << file << run.log;
@@ -79,8 +79,9 @@ TEST(HelpPatches, have_no_boxes_that_overlap_or_lie_outside) {
 TEST(HelpPatches, work_wherever_the_folder_lies) {
   for (const fs::path& file : patches()) {
     const std::string text = contents(file);
-    // All but the parts that examples are made of declare the library themselves.
-    const bool declared = text.find(" 12;\n#X declare -path .. -lib gait;\n") != std::string::npos;
+    const std::string up = file.parent_path().filename() == "parts" ? "../.." : "..";
+    const bool declared =
+        text.find(" 12;\n#X declare -path " + up + " -lib gait;\n") != std::string::npos;
     EXPECT_TRUE(declared) << file;
     for (const char* absolute : {"/home/", "/tmp/", "/usr/", "/Users/", "C:/"})
       EXPECT_EQ(text.find(absolute), std::string::npos) << file << ": " << absolute;

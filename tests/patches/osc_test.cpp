@@ -11,7 +11,7 @@
 #include <sstream>
 #include <thread>
 
-#include "gait/motion/bvh.h"
+#include "gait/files/bvh.h"
 #include "gait/osc/destination.h"
 #include "gait/osc/live_body.h"
 #include "gait/osc/receiver.h"

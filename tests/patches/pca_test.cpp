@@ -2,8 +2,8 @@
 #include <gtest/gtest.h>
 
 #include "gait/model/body_pose.h"
-#include "gait/play/speed_walker.h"
-#include "gait/play/style_walker.h"
+#include "gait/play/cycles/speed_walker.h"
+#include "gait/play/cycles/style_walker.h"
 #include "patches/demo_model.h"
 #include "patches/patch.h"
 

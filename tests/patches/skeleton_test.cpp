@@ -1,7 +1,7 @@
 // [gait.skeleton]: it shows the body that the core puts on stage.
 #include <gtest/gtest.h>
 
-#include "gait/play/body_stage.h"
+#include "gait/play/body/body_stage.h"
 #include "patches/patch.h"
 #include "patches/walked_messages.h"
 

@@ -5,9 +5,9 @@
 #include <random>
 
 #include "gait/corpus/corpus.h"
-#include "gait/judge/walk_model.h"
 #include "gait/learn/trainer.h"
 #include "gait/model/model_file.h"
+#include "gait/teach/walk_model.h"
 #include "patches/patch.h"
 
 namespace gait::testing {

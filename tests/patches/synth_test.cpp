@@ -1,7 +1,7 @@
 // [gait.synth]: fed and alone it sends what the core synthesises, and goes from one to the other.
 #include <gtest/gtest.h>
 
-#include "gait/play/synthesiser.h"
+#include "gait/play/synthesise/synthesiser.h"
 #include "patches/patch.h"
 #include "patches/walked_messages.h"
 

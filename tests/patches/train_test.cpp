@@ -9,8 +9,8 @@
 #include <thread>
 
 #include "gait/corpus/corpus.h"
-#include "gait/judge/takes_file.h"
 #include "gait/model/model_file.h"
+#include "gait/teach/takes_file.h"
 #include "patches/patch.h"
 
 namespace gait::testing {

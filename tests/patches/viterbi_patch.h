@@ -9,8 +9,8 @@
 #include <utility>
 #include <vector>
 
-#include "gait/play/covariance_map.h"
-#include "gait/play/recogniser.h"
+#include "gait/play/map/covariance_map.h"
+#include "gait/play/recognise/recogniser.h"
 #include "patches/demo_model.h"
 #include "patches/patch.h"
 #include "play/few_walks.h"

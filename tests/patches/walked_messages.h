@@ -7,7 +7,7 @@
 #include <vector>
 
 #include "patches/demo_model.h"
-#include "play/told_gaussians.h"
+#include "play/synthesise/told_gaussians.h"
 
 namespace gait::testing {
 

@@ -7,10 +7,10 @@
 #include <vector>
 
 #include "gait/corpus/corpus.h"
-#include "gait/judge/walk_model.h"
 #include "gait/learn/trainer.h"
 #include "gait/learn/walk_sequences.h"
 #include "gait/model/body_pose.h"
+#include "gait/teach/walk_model.h"
 
 namespace gait::testing {
 

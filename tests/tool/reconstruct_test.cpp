@@ -6,8 +6,8 @@
 #include <set>
 #include <sstream>
 
+#include "gait/files/bvh.h"
 #include "gait/motion/body_frame.h"
-#include "gait/motion/bvh.h"
 #include "gait/motion/joint_roles.h"
 #include "gait/motion/rotation.h"
 #include "walking_takes.h"

@@ -5,7 +5,7 @@
 
 #include "gait/corpus/corpus.h"
 #include "gait/corpus/walk_style.h"
-#include "gait/motion/bvh.h"
+#include "gait/files/bvh.h"
 
 namespace gait::testing {
 

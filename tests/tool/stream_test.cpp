@@ -10,7 +10,7 @@
 #include <thread>
 
 #include "gait/corpus/corpus.h"
-#include "gait/motion/bvh.h"
+#include "gait/files/bvh.h"
 #include "gait/motion/kinematics.h"
 #include "gait/motion/rotation.h"
 #include "gait/osc/receiver.h"

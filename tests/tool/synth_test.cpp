@@ -4,7 +4,7 @@
 #include <filesystem>
 #include <numbers>
 
-#include "gait/motion/bvh.h"
+#include "gait/files/bvh.h"
 #include "gait/motion/contacts.h"
 #include "gait/motion/joint_roles.h"
 #include "tool_runner.h"

@@ -6,8 +6,8 @@
 #include <nlohmann/json.hpp>
 
 #include "gait/corpus/corpus.h"
+#include "gait/files/label_file.h"
 #include "gait/model/model_file.h"
-#include "gait/motion/label_file.h"
 #include "sample_clips.h"
 #include "walking_takes.h"
 

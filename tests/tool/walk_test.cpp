@@ -5,7 +5,7 @@
 #include <filesystem>
 #include <nlohmann/json.hpp>
 
-#include "gait/motion/bvh.h"
+#include "gait/files/bvh.h"
 #include "gait/motion/joint_roles.h"
 #include "tool_runner.h"
 #include "walking_models.h"

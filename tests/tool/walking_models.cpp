@@ -5,10 +5,10 @@
 #include <filesystem>
 
 #include "gait/corpus/corpus.h"
-#include "gait/judge/walk_model.h"
-#include "gait/judge/walks_over_speed.h"
 #include "gait/learn/trainer.h"
 #include "gait/model/model_file.h"
+#include "gait/teach/walk_model.h"
+#include "gait/teach/walks_over_speed.h"
 
 namespace gait::testing {
 

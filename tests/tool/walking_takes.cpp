@@ -3,7 +3,7 @@
 #include <filesystem>
 
 #include "gait/corpus/corpus.h"
-#include "gait/motion/bvh.h"
+#include "gait/files/bvh.h"
 
 namespace gait::testing {
 

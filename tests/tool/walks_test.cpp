@@ -4,10 +4,10 @@
 #include <map>
 #include <nlohmann/json.hpp>
 
-#include "gait/motion/bvh.h"
+#include "gait/files/bvh.h"
+#include "gait/files/label_file.h"
 #include "gait/motion/contacts.h"
 #include "gait/motion/joint_roles.h"
-#include "gait/motion/label_file.h"
 #include "sample_clips.h"
 #include "tool_runner.h"
 

@@ -8,11 +8,11 @@
 #include "gait/judge/calibration.h"
 #include "gait/judge/foot_slide.h"
 #include "gait/judge/played_sequence.h"
-#include "gait/judge/reconstructed_clip.h"
 #include "gait/model/body_pose.h"
 #include "gait/model/fitted_model.h"
 #include "gait/motion/contacts.h"
 #include "gait/motion/resample.h"
+#include "gait/offline/reconstructed_clip.h"
 
 namespace gait {
 

@@ -5,8 +5,8 @@
 #include <numbers>
 
 #include "gait/error.h"
+#include "gait/files/bvh.h"
 #include "gait/motion/body_frame.h"
-#include "gait/motion/bvh.h"
 #include "gait/motion/contacts.h"
 #include "gait/motion/kinematics.h"
 #include "gait/motion/resample.h"

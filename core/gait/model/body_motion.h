@@ -9,10 +9,10 @@
 #include <string>
 #include <vector>
 
+#include "gait/files/label_file.h"
 #include "gait/model/body_pose.h"
 #include "gait/model/model.h"
 #include "gait/motion/clip.h"
-#include "gait/motion/label_file.h"
 #include "gait/motion/steps.h"
 
 namespace gait {

@@ -6,7 +6,7 @@
 
 #include <vector>
 
-#include "gait/play/phase_estimate.h"
+#include "gait/play/recognise/phase_estimate.h"
 
 namespace gait {
 

@@ -8,9 +8,9 @@
 #include <vector>
 
 #include "gait/model/model.h"
-#include "gait/play/covariance_map.h"
-#include "gait/play/recogniser.h"
-#include "gait/play/trajectory.h"
+#include "gait/play/map/covariance_map.h"
+#include "gait/play/recognise/recogniser.h"
+#include "gait/play/synthesise/trajectory.h"
 
 namespace gait {
 

@@ -10,10 +10,10 @@
 #include <span>
 #include <vector>
 
-#include "gait/play/frame_clock.h"
-#include "gait/play/hips_heading.h"
+#include "gait/play/body/root_motion.h"
+#include "gait/play/input/frame_clock.h"
+#include "gait/play/input/hips_heading.h"
 #include "gait/play/player.h"
-#include "gait/play/root_motion.h"
 
 namespace gait {
 

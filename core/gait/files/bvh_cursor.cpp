@@ -1,0 +1,160 @@
+#include "gait/files/bvh_cursor.h"
+
+#include <algorithm>
+#include <charconv>
+#include <cmath>
+
+namespace gait {
+namespace {
+
+// Larger than any angle or place in a recording; squares of it still fit a double with ease.
+constexpr double kLargestNumber = 1e9;
+
+bool is_blank(char c) { return c == ' ' || c == '\t' || c == '\f' || c == '\v'; }
+bool is_line_end(char c) { return c == '\n' || c == '\r'; }
+bool is_space(char c) { return is_blank(c) || is_line_end(c); }
+bool is_brace(char c) { return c == '{' || c == '}'; }
+char lower(char c) { return c >= 'A' && c <= 'Z' ? static_cast<char>(c - 'A' + 'a') : c; }
+
+std::string found(std::string_view word) {
+  return word.empty() ? "the end of the file" : in_quotes(word);
+}
+
+}  // namespace
+
+bool same_word(std::string_view a, std::string_view b) {
+  if (a.size() != b.size()) return false;
+  for (std::size_t i = 0; i < a.size(); ++i)
+    if (lower(a[i]) != lower(b[i])) return false;
+  return true;
+}
+
+std::string in_quotes(std::string_view text) {
+  constexpr std::size_t most = 40;
+  constexpr char digits[] = "0123456789abcdef";
+  std::string result = "'";
+  for (const char c : text.substr(0, most)) {
+    const auto byte = static_cast<unsigned char>(c);
+    if (byte < 0x20 || byte >= 0x7f) {
+      result += "\\x";
+      result += digits[byte >> 4];
+      result += digits[byte & 15];
+    } else {
+      result += c;
+    }
+  }
+  if (text.size() > most) result += "...";
+  return result + "'";
+}
+
+BvhCursor::BvhCursor(std::string_view text, std::string_view name) : text_(text), name_(name) {
+  if (text_.starts_with("\xEF\xBB\xBF")) position_ = 3;
+  // An old end-of-file mark and zero padding are not content.
+  while (!text_.empty() && (text_.back() == '\x1a' || text_.back() == '\0')) text_.remove_suffix(1);
+  position_ = std::min(position_, text_.size());
+}
+
+bool BvhCursor::skip_space() {
+  while (position_ < text_.size() && is_space(text_[position_])) {
+    // CR LF, LF and CR alone each end one line.
+    const char c = text_[position_++];
+    if (c == '\n' || (c == '\r' && (position_ == text_.size() || text_[position_] != '\n')))
+      ++line_;
+  }
+  return position_ < text_.size();
+}
+
+bool BvhCursor::skip_blanks() {
+  while (position_ < text_.size() && is_blank(text_[position_])) ++position_;
+  return position_ < text_.size() && !is_line_end(text_[position_]);
+}
+
+std::string_view BvhCursor::peek() {
+  if (!skip_space()) return {};
+  std::size_t end = position_;
+  if (is_brace(text_[end])) return text_.substr(end, 1);
+  while (end < text_.size() && !is_space(text_[end]) && !is_brace(text_[end])) ++end;
+  return text_.substr(position_, end - position_);
+}
+
+std::string_view BvhCursor::word() {
+  const std::string_view result = peek();
+  position_ += result.size();
+  return result;
+}
+
+bool BvhCursor::take(std::string_view expected) {
+  const std::string_view next = peek();
+  if (!same_word(next, expected)) return false;
+  position_ += next.size();
+  return true;
+}
+
+void BvhCursor::require(std::string_view expected, std::string_view why) {
+  if (take(expected)) return;
+  fail("expected '" + std::string(expected) + "' " + std::string(why) + ", found " + found(peek()));
+}
+
+void BvhCursor::require_title(std::string_view title) {
+  const std::string expected = "expected '" + std::string(title) + ":', found ";
+  for (std::string_view left = title; !left.empty();) {
+    const std::size_t space = left.find(' ');
+    const std::string_view wanted = left.substr(0, space);
+    std::string_view next = peek();
+    if (next.size() < wanted.size() || !same_word(next.substr(0, wanted.size()), wanted))
+      fail(expected + found(next));
+    position_ += wanted.size();
+    left = space == std::string_view::npos ? std::string_view{} : left.substr(space + 1);
+  }
+  if (skip_blanks() && text_[position_] == ':') ++position_;
+}
+
+std::string_view BvhCursor::rest_of_line() {
+  skip_blanks();
+  std::size_t end = position_;
+  while (end < text_.size() && !is_line_end(text_[end]) && !is_brace(text_[end])) ++end;
+  std::string_view result = text_.substr(position_, end - position_);
+  position_ = end;
+  while (!result.empty() && is_blank(result.back())) result.remove_suffix(1);
+  return result;
+}
+
+double BvhCursor::number(std::string_view what) {
+  skip_space();
+  const char* begin = text_.data() + position_;
+  const char* const end = text_.data() + text_.size();
+  if (begin != end && *begin == '+' && begin + 1 != end && begin[1] != '-') ++begin;
+  double value = 0;
+  const auto [stop, error] = std::from_chars(begin, end, value);
+  const bool whole = stop == end || is_space(*stop) || is_brace(*stop);
+  if (error == std::errc::result_out_of_range && whole)  // too small for a double, or too large
+    value = std::string_view(begin, stop).find("e-") != std::string_view::npos ||
+                    std::string_view(begin, stop).find("E-") != std::string_view::npos
+                ? 0
+                : INFINITY;
+  else if (error != std::errc{} || !whole)
+    fail("expected a number (" + std::string(what) + "), found " + found(peek()));
+  if (!(std::abs(value) <= kLargestNumber))
+    fail("expected a finite number below 1e9 (" + std::string(what) + "), found " + found(peek()));
+  position_ = static_cast<std::size_t>(stop - text_.data());
+  return value;
+}
+
+long long BvhCursor::count(std::string_view what, long long least, long long most) {
+  const std::string_view next = peek();
+  long long value = 0;
+  const auto [stop, error] = std::from_chars(next.data(), next.data() + next.size(), value);
+  if (error != std::errc{} || stop != next.data() + next.size() || value < least || value > most)
+    fail("expected " + std::string(what) + ", a whole number from " + std::to_string(least) +
+         " to " + std::to_string(most) + ", found " + found(next));
+  position_ += next.size();
+  return value;
+}
+
+std::string BvhCursor::here(std::string_view message) const {
+  return std::string(name_) + ":" + std::to_string(line_) + ": " + std::string(message);
+}
+
+void BvhCursor::fail(std::string_view message) const { throw Error(here(message)); }
+
+}  // namespace gait

@@ -1,0 +1,221 @@
+#include <array>
+#include <cmath>
+#include <fstream>
+#include <utility>
+
+#include "gait/files/bvh.h"
+#include "gait/files/bvh_cursor.h"
+
+namespace gait {
+namespace {
+
+// Far above any rig, far below what would hurt: a file beyond these is damaged.
+constexpr std::size_t kDeepestNesting = 200;
+constexpr int kMostJoints = 10000;
+constexpr long long kMostChannelsPerJoint = 32;
+constexpr long long kMostFrames = 1'000'000'000;
+constexpr std::size_t kLargestFile = std::size_t{1} << 30;
+
+constexpr std::array<std::pair<std::string_view, Channel>, 6> kChannelNames{{
+    {"Xposition", Channel::x_position},
+    {"Yposition", Channel::y_position},
+    {"Zposition", Channel::z_position},
+    {"Xrotation", Channel::x_rotation},
+    {"Yrotation", Channel::y_rotation},
+    {"Zrotation", Channel::z_rotation},
+}};
+
+Eigen::Vector3d read_offset(BvhCursor& cursor) {
+  Eigen::Vector3d offset;
+  for (int axis = 0; axis < 3; ++axis) offset[axis] = cursor.number("one of the three of OFFSET");
+  return offset;
+}
+
+Channel read_channel(BvhCursor& cursor, std::string_view joint) {
+  const std::string_view word = cursor.peek();
+  for (const auto& [name, channel] : kChannelNames)
+    if (same_word(word, name)) {
+      cursor.word();
+      return channel;
+    }
+  cursor.fail("expected a channel of joint " + in_quotes(joint) +
+              " (Xposition ... Zrotation, as many as CHANNELS says), found " +
+              (word.empty() ? "the end of the file" : in_quotes(word)));
+}
+
+std::vector<Channel> read_channels(BvhCursor& cursor, std::string_view joint) {
+  const long long count = cursor.count("the number of channels", 0, kMostChannelsPerJoint);
+  std::vector<Channel> channels;
+  std::array<bool, 3> placed{};
+  for (long long i = 0; i < count; ++i) {
+    const Channel channel = read_channel(cursor, joint);
+    if (channel <= Channel::z_position) {
+      bool& seen = placed[static_cast<std::size_t>(channel)];
+      if (seen)
+        cursor.fail("expected each position channel once, found it twice in joint " +
+                    in_quotes(joint));
+      seen = true;
+    }
+    channels.push_back(channel);
+  }
+  return channels;
+}
+
+// The body of a joint between its braces is read without recursion: `open` holds the joints whose
+// brace is open, so that a hostile file cannot exhaust the stack.
+class HierarchyReader {
+ public:
+  HierarchyReader(BvhCursor& cursor, BvhFile& file) : cursor_(cursor), file_(file) {}
+
+  void read() {
+    cursor_.require("HIERARCHY", "at the start of a BVH file (is it one?)");
+    if (!same_word(cursor_.peek(), "ROOT")) cursor_.require("ROOT", "after HIERARCHY");
+    while (cursor_.take("ROOT")) {
+      begin_joint(-1);
+      while (!open_.empty()) read_item();
+    }
+  }
+
+ private:
+  struct Open {
+    int joint;
+    bool has_offset, has_channels;
+  };
+
+  void begin_joint(int parent) {
+    if (open_.size() >= kDeepestNesting)
+      cursor_.fail("expected joints nested at most " + std::to_string(kDeepestNesting) +
+                   " deep, found one deeper");
+    if (file_.skeleton.size() >= kMostJoints)
+      cursor_.fail("expected at most " + std::to_string(kMostJoints) + " joints, found more");
+    const std::string_view name = cursor_.rest_of_line();
+    if (name.empty()) cursor_.fail("expected the joint's name, found none");
+    cursor_.require("{", "to open joint " + in_quotes(name));
+    file_.skeleton.joints.push_back({std::string(name), parent, Eigen::Vector3d::Zero(), {}});
+    file_.channels.emplace_back();
+    open_.push_back({file_.skeleton.size() - 1, false, false});
+  }
+
+  void read_item() {
+    Open& top = open_.back();
+    Joint& joint = file_.skeleton.joints[top.joint];
+    if (cursor_.take("}")) {
+      if (!top.has_offset)
+        cursor_.fail("expected OFFSET in joint " + in_quotes(joint.name) + ", found none");
+      open_.pop_back();
+    } else if (!top.has_offset && cursor_.take("OFFSET")) {
+      joint.offset = read_offset(cursor_);
+      top.has_offset = true;
+    } else if (!top.has_channels && cursor_.take("CHANNELS")) {
+      file_.channels[top.joint] = read_channels(cursor_, joint.name);
+      top.has_channels = true;
+    } else if (cursor_.take("JOINT")) {
+      begin_joint(top.joint);
+    } else if (cursor_.take("End")) {
+      cursor_.rest_of_line();  // "Site", or what some call it
+      cursor_.require("{", "to open the end site of joint " + in_quotes(joint.name));
+      cursor_.require("OFFSET", "in the end site of joint " + in_quotes(joint.name));
+      joint.tips.push_back(read_offset(cursor_));
+      cursor_.require("}", "to close the end site of joint " + in_quotes(joint.name));
+    } else {
+      fail_in(top, joint.name);
+    }
+  }
+
+  [[noreturn]] void fail_in(const Open& top, const std::string& joint) {
+    std::string expected = "expected ";
+    if (!top.has_offset) expected += "OFFSET, ";
+    if (!top.has_channels) expected += "CHANNELS, ";
+    const std::string_view word = cursor_.peek();
+    cursor_.fail(expected + "JOINT, 'End Site' or '}' in joint " + in_quotes(joint) + ", found " +
+                 (word.empty() ? "the end of the file" : in_quotes(word)));
+  }
+
+  BvhCursor& cursor_;
+  BvhFile& file_;
+  std::vector<Open> open_;
+};
+
+void read_rows(BvhCursor& cursor, BvhFile& file, long long announced) {
+  std::size_t columns = 0;
+  for (const auto& channels : file.channels) columns += channels.size();
+  if (columns == 0) {
+    if (announced > 0) cursor.fail("expected at least one channel in the hierarchy, found none");
+    return;
+  }
+  // What is reserved follows from what the file holds, not from what its header says: a value takes
+  // two bytes at least.
+  std::vector<double> values;
+  values.reserve(
+      std::min(static_cast<std::size_t>(announced) * columns, cursor.bytes_left() / 2 + 1));
+  long long rows = 0;
+  while (cursor.next_line()) {
+    std::size_t found = 0;
+    do {
+      if (found == columns)
+        cursor.fail("expected " + std::to_string(columns) + " values in the row of frame " +
+                    std::to_string(rows + 1) + ", found more");
+      values.push_back(cursor.number("a channel's value"));
+      ++found;
+    } while (cursor.skip_blanks());
+    if (found != columns)
+      cursor.fail("expected " + std::to_string(columns) + " values in the row of frame " +
+                  std::to_string(rows + 1) + ", found " + std::to_string(found));
+    ++rows;
+  }
+  if (rows < announced)
+    cursor.fail("expected " + std::to_string(announced) + " rows as 'Frames:' says, found " +
+                std::to_string(rows));
+  if (rows > announced)
+    file.warnings.push_back(cursor.here("expected " + std::to_string(announced) +
+                                        " rows as 'Frames:' says, found " + std::to_string(rows) +
+                                        "; all are used"));
+  file.values = Eigen::Map<const decltype(file.values)>(
+      values.data(), static_cast<Eigen::Index>(rows), static_cast<Eigen::Index>(columns));
+}
+
+}  // namespace
+
+BvhFile parse_bvh(std::string_view text, std::string name) {
+  BvhFile file;
+  file.name = std::move(name);
+  BvhCursor cursor(text, file.name);
+  if (!cursor.skip_space()) cursor.fail("expected HIERARCHY, found an empty file");
+  HierarchyReader(cursor, file).read();
+  cursor.require("MOTION", "after the hierarchy");
+  cursor.require_title("Frames");
+  const long long frames = cursor.count("the number of frames", 0, kMostFrames);
+  if (frames == 0) file.warnings.push_back(cursor.here("'Frames:' says there are none"));
+  cursor.require_title("Frame Time");
+  file.frame_time = cursor.number("the frame time in seconds");
+  if (file.frame_time < 1e-6)
+    cursor.fail("expected a frame time above a microsecond, found " +
+                std::to_string(file.frame_time) + " s");
+  if (file.frame_time > 1)
+    file.warnings.push_back(cursor.here("a frame time of " + std::to_string(file.frame_time) +
+                                        " s is unusually long; is it frames per second?"));
+  if (cursor.skip_blanks())
+    cursor.fail("expected the end of the line after the frame time, found " +
+                in_quotes(cursor.peek()));
+  read_rows(cursor, file, frames);
+  return file;
+}
+
+BvhFile read_bvh(const std::filesystem::path& path) {
+  std::error_code ignored;
+  if (std::filesystem::is_directory(path, ignored))
+    throw Error(path.string() + ": expected a BVH file, found a directory");
+  std::ifstream stream(path, std::ios::binary);
+  if (!stream) throw Error(path.string() + ": expected a BVH file, cannot open it");
+  std::string text;
+  std::array<char, 1 << 16> block;
+  while (stream.read(block.data(), block.size()) || stream.gcount() > 0) {
+    text.append(block.data(), static_cast<std::size_t>(stream.gcount()));
+    if (text.size() > kLargestFile)
+      throw Error(path.string() + ": expected a BVH file below 1 GiB, found a larger one");
+  }
+  if (stream.bad()) throw Error(path.string() + ": cannot be read to its end");
+  return parse_bvh(text, path.string());
+}
+
+}  // namespace gait

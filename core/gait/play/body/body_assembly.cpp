@@ -1,0 +1,101 @@
+#include "gait/play/body/body_assembly.h"
+
+#include <algorithm>
+#include <cmath>
+
+#include "gait/play/synthesise/falling_in_step.h"
+
+namespace gait {
+
+namespace {
+
+bool usable(std::span<const float> values, Eigen::Index size) noexcept {
+  return static_cast<Eigen::Index>(values.size()) == size &&
+         std::ranges::all_of(values, [](float value) { return std::isfinite(value); });
+}
+
+// Three values per joint: the mean pose of training, the references where nothing is known.
+Eigen::VectorXf mean_pose(const Model& model) {
+  return Eigen::VectorXf::Zero(3 * model.body->skeleton.size());
+}
+
+}  // namespace
+
+BodyAssembly::BodyAssembly(std::shared_ptr<const Model> model)
+    : model_(std::move(model)),
+      measured_(mean_pose(*model_)),
+      hand_over_(std::vector<Stream>(static_cast<std::size_t>(model_->body->skeleton.size())),
+                 model_->frame_rate, hand_over_seconds),
+      stored_(mean_pose(*model_)),
+      taken_(stored_),
+      shown_(stored_),
+      before_(stored_) {
+  const auto find = [](const std::vector<Stream>& streams, const std::vector<int>& joints,
+                       std::vector<Part>& parts) {
+    int begin = 0;
+    auto joint = joints.begin();
+    for (const Stream& stream : streams) {
+      if (stream.kind == StreamKind::rotation) parts.push_back({begin, *joint++});
+      begin += stream.size;
+    }
+  };
+  find(model_->inputs, model_->body->input_joints, inputs_);
+  find(model_->outputs, model_->body->output_joints, outputs_);
+}
+
+void BodyAssembly::reset() noexcept {
+  measured_.reset();
+  hand_over_.stop();
+  source_ = Source::none;
+  shown_frames_ = 0;
+  stored_.setZero();
+}
+
+bool BodyAssembly::store_inputs(std::span<const float> values) noexcept {
+  if (!usable(values, model_->input.values)) return false;
+  for (const Part& part : inputs_)
+    std::copy_n(values.data() + part.begin, 3, stored_.data() + 3 * part.joint);
+  measured_.store({stored_.data(), static_cast<std::size_t>(stored_.size())});
+  return true;
+}
+
+bool BodyAssembly::store_pose(std::span<const float> values) noexcept {
+  if (!usable(values, stored_.size())) return false;
+  std::ranges::copy(values, stored_.data());
+  measured_.store(values);
+  return true;
+}
+
+bool BodyAssembly::take_outputs(std::span<const float> values) noexcept {
+  if (!usable(values, model_->output.values)) return false;
+  measured_.mark();
+  std::ranges::copy(measured_.at(delay_), taken_.data());
+  for (const Part& part : outputs_)
+    std::copy_n(values.data() + part.begin, 3, taken_.data() + 3 * part.joint);
+  show(Source::parts);
+  return true;
+}
+
+bool BodyAssembly::take_pose(std::span<const float> values) noexcept {
+  if (!usable(values, taken_.size())) return false;
+  measured_.mark();
+  std::ranges::copy(values, taken_.data());
+  show(Source::whole);
+  return true;
+}
+
+void BodyAssembly::show(Source source) noexcept {
+  if (source != source_ && source_ != Source::none) {
+    if (shown_frames_ > 1)
+      hand_over_.begin_before(shown_, before_, taken_);
+    else
+      hand_over_.begin(shown_, taken_);
+  }
+  source_ = source;
+  shown_frames_ = std::min(shown_frames_ + 1, 2);
+  before_.swap(shown_);
+  shown_ = taken_;
+  hand_over_.apply(shown_);
+}
+
+}  // namespace gait

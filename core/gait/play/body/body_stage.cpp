@@ -1,0 +1,270 @@
+#include "gait/play/body/body_stage.h"
+
+#include <algorithm>
+#include <cmath>
+#include <numbers>
+
+#include "gait/error.h"
+#include "gait/model/body_pose.h"
+#include "gait/motion/rotation.h"
+
+namespace gait {
+
+namespace {
+
+// Within this time a body comes to a stop, or starts.
+constexpr float stopping_seconds = 0.2f;
+// After a hand-over its root is less and less gentle.
+constexpr float gentle_seconds = 0.7f;
+
+const std::shared_ptr<const Model>& with_body(const std::shared_ptr<const Model>& model) {
+  if (!model->body)
+    throw Error("model " + model->name +
+                ": expected a model of a body; its streams are plain values");
+  return model;
+}
+
+// Thigh and shank, whatever joints a rig has between hip and ankle.
+float leg_length(const Model& model) {
+  const Leg leg = body_roles(*model.body).right;
+  const auto& joints = model.body->skeleton.joints;
+  double length = 0;
+  for (int joint = leg.foot; joint >= 0 && joint != leg.thigh; joint = joints[joint].parent)
+    length += joints[joint].offset.norm();
+  return static_cast<float>(length);
+}
+
+}  // namespace
+
+BodyStage::BodyStage(std::shared_ptr<const Model> model)
+    : model_(with_body(model)),
+      hips_(body_roles(*model_->body).hips),
+      period_(static_cast<float>(1 / model_->frame_rate)),
+      assembly_(model_),
+      roots_(Eigen::VectorXf::Zero(4)),
+      filter_(model_->body->skeleton.size(), model_->frame_rate),
+      motion_(model_->body->skeleton, body_roles(*model_->body), model_->frame_rate),
+      foot_lock_(model_->body->skeleton, body_roles(*model_->body), model_->frame_rate),
+      meter_(*model_) {
+  const Body& body = *model_->body;
+  model_leg_ = std::max(1e-3f, leg_length(*model_));
+  const JointRoles roles = body_roles(body);
+  for (const Leg& leg : {roles.right, roles.left})
+    for (const int joint : {leg.thigh, leg.shank, leg.foot})
+      leg_joints_.push_back(static_cast<std::size_t>(joint));
+  for (const auto& reference : body.references) references_.push_back(reference.cast<float>());
+  for (const Joint& joint : body.skeleton.joints) {
+    offsets_.push_back(joint.offset.cast<float>());
+    parents_.push_back(joint.parent);
+  }
+  above_.assign(parents_.size(), false);
+  for (int joint = parents_[hips_]; joint >= 0; joint = parents_[joint]) above_[joint] = true;
+  for (int joint = 0; joint < body.skeleton.size(); ++joint)
+    if (joint != hips_ && parents_[joint] < 0) above_[joint] = true;
+  for (int joint = 0; joint < body.skeleton.size(); ++joint)
+    if (joint != hips_ && !above_[joint]) bones_.push_back({parents_[joint], joint});
+  for (int joint = 0; joint < body.skeleton.size(); ++joint)
+    for (const Eigen::Vector3d& tip : body.skeleton.joints[joint].tips) {
+      if (above_[joint]) continue;
+      bones_.push_back({joint, body.skeleton.size() + static_cast<int>(tips_.size())});
+      tips_.push_back({static_cast<std::size_t>(joint), tip.cast<float>()});
+    }
+  pose_ = world_ = references_;
+  values_ = assembly_.values();
+  positions_.assign(3 * (pose_.size() + tips_.size()), 0.0f);
+}
+
+bool BodyStage::store_inputs(std::span<const float> values) noexcept {
+  return assembly_.store_inputs(values);
+}
+
+bool BodyStage::store_pose(std::span<const float> values) noexcept {
+  return assembly_.store_pose(values);
+}
+
+bool BodyStage::store_root(const RootPlace& root) noexcept {
+  if (!root.hips.allFinite() || !std::isfinite(root.heading)) return false;
+  const std::array<float, 4> values{root.hips.x(), root.hips.y(), root.hips.z(), root.heading};
+  roots_.store(values);
+  return true;
+}
+
+bool BodyStage::show_outputs(std::span<const float> values) noexcept {
+  if (!assembly_.take_outputs(values)) return false;
+  make();
+  return true;
+}
+
+bool BodyStage::show_pose(std::span<const float> values) noexcept {
+  if (!assembly_.take_pose(values)) return false;
+  make();
+  return true;
+}
+
+bool BodyStage::set_heading_rate(float radians_per_second) noexcept {
+  if (!std::isfinite(radians_per_second)) return false;
+  heading_rate_ = std::clamp(radians_per_second, -10.0f, 10.0f);
+  return true;
+}
+
+bool BodyStage::set_place(const Eigen::Vector3f& place) noexcept {
+  if (!place.allFinite()) return false;
+  place_ = place;
+  return true;
+}
+
+bool BodyStage::set_smooth(float hertz) noexcept {
+  if (!std::isfinite(hertz) || hertz < 0) return false;
+  filter_.set_cutoff(hertz);
+  return true;
+}
+
+bool BodyStage::set_leg_length(float metres) noexcept {
+  if (!std::isfinite(metres) || metres < 0) return false;
+  scale_ = metres > 0 ? std::clamp(metres / model_leg_, 0.01f, 100.0f) : 1.0f;
+  return true;
+}
+
+std::span<const float> BodyStage::pose() const noexcept {
+  return {values_.data(), static_cast<std::size_t>(values_.size())};
+}
+
+void BodyStage::reset() noexcept {
+  assembly_.reset();
+  roots_.reset();
+  filter_.reset();
+  motion_.reset();
+  foot_lock_.reset();
+  meter_.reset();
+  started_ = false;
+  gentle_ = 0;
+  heading_ = 0;
+  path_.setZero();
+  feet_ = {};
+}
+
+void BodyStage::make() noexcept {
+  roots_.mark();
+  values_ = assembly_.values();
+  for (std::size_t joint = 0; joint < pose_.size(); ++joint)
+    pose_[joint] = rotation_from<float>(std::span<const float, 3>(values_.data() + 3 * joint, 3),
+                                        references_[joint]);
+  if (filter_.on()) {
+    filter_.apply(pose_);
+    for (std::size_t joint = 0; joint < pose_.size(); ++joint) tell_values(joint);
+  }
+  meter_.advance(pose_);
+  move();
+  hold_feet();
+  watch_feet();
+  place_joints();
+}
+
+void BodyStage::move() noexcept {
+  if (started_)
+    going_.advance(glide_share(period_, stopping_seconds));
+  else
+    going_.arrive();
+  heading_ = std::remainder(heading_ + going_.value() * heading_rate_ * period_,
+                            2 * std::numbers::pi_v<float>);
+  const Eigen::Vector3f before = walked_;
+  gentle_ = assembly_.whole() ? 1 : std::max(0.0f, gentle_ - period_ / gentle_seconds);
+  motion_.set_gentle(may_lock() ? gentle_ : 0);
+  walked_ = motion_.advance(pose_, heading_);
+  if (started_ && from_ == RootFrom::feet) {
+    const Eigen::Vector3f moved = going_.value() * (walked_ - before);
+    path_.x() += moved.x(), path_.z() += moved.z();
+  }
+  path_.y() = walked_.y();
+  started_ = true;
+
+  if (from_ == RootFrom::keep && roots_.any()) {
+    const auto root = roots_.at(assembly_.delay());
+    root_.hips = place_ + scale_ * Eigen::Vector3f(root[0], root[1], root[2]);
+    root_.heading = root[3];
+  } else {
+    root_.hips = place_ + scale_ * path_.cast<float>();
+    root_.heading = heading_;
+  }
+}
+
+// Who does not walk is not held: nothing says where such feet are to be.
+void BodyStage::hold_feet() noexcept {
+  foot_lock_.apply(pose_, motion_, heading_, may_lock() && assembly_.whole() ? going_.value() : 0);
+  if (!foot_lock_.corrected()) return;
+  for (const std::size_t joint : leg_joints_) tell_values(joint);
+}
+
+void BodyStage::tell_values(std::size_t joint) noexcept {
+  values_.segment<3>(3 * static_cast<Eigen::Index>(joint)) =
+      rotation_vector<float>(references_[joint].conjugate() * pose_[joint]);
+}
+
+void BodyStage::watch_feet() noexcept {
+  for (const Foot foot : {Foot::right, Foot::left}) {
+    FootState& state = feet_[index(foot)];
+    state.stride.reset();
+    state.touched = state.touch.advance(motion_.share_of(foot)) && going_.target() > 0;
+    if (!state.touched) continue;
+    const Eigen::Vector3f along = walked_ - state.place;
+    if (state.ever) state.stride = scale_ * std::hypot(along.x(), along.z());
+    state.place = walked_;
+    state.ever = true;
+  }
+}
+
+void BodyStage::place_joints() noexcept {
+  for (std::size_t joint = 0; joint < pose_.size(); ++joint) {
+    Eigen::Vector3f place = root_.hips;
+    if (above_[joint]) {  // rigs put empty roots above the hips: on the ground below them
+      place.y() = place_.y();
+      world_[joint].setIdentity();
+    } else if (static_cast<int>(joint) == hips_) {
+      world_[joint] = about_vertical(root_.heading) * pose_[joint];
+    } else {
+      const auto parent = static_cast<std::size_t>(parents_[joint]);
+      const Eigen::Vector3f above(positions_[3 * parent], positions_[3 * parent + 1],
+                                  positions_[3 * parent + 2]);
+      world_[joint] = world_[parent] * pose_[joint];
+      place = above + scale_ * (world_[parent] * offsets_[joint]);
+    }
+    std::copy_n(place.data(), 3, positions_.data() + 3 * joint);
+  }
+  for (std::size_t i = 0; i < tips_.size(); ++i) {
+    const auto& [joint, offset] = tips_[i];
+    const Eigen::Vector3f place =
+        Eigen::Vector3f(positions_.data() + 3 * joint) + scale_ * (world_[joint] * offset);
+    std::copy_n(place.data(), 3, positions_.data() + 3 * (pose_.size() + i));
+  }
+}
+
+bool BodyStage::same_bones(const BodyStage& other) const noexcept {
+  return period_ == other.period_ && parents_ == other.parents_ && offsets_ == other.offsets_ &&
+         leg_joints_ == other.leg_joints_ &&
+         std::ranges::equal(tips_, other.tips_, {}, &Tip::offset, &Tip::offset);
+}
+
+bool BodyStage::take_over(const BodyStage& other) noexcept {
+  if (positions_.size() != other.positions_.size() ||
+      model_->input.values != other.model_->input.values ||
+      model_->output.values != other.model_->output.values)
+    return false;
+  set_delay(other.assembly_.delay());
+  from_ = other.from_;
+  lock_ = other.lock_;
+  going_ = other.going_;
+  heading_rate_ = other.heading_rate_;
+  place_ = other.place_;
+  scale_ = other.scale_ * other.model_leg_ / model_leg_;
+  filter_.set_cutoff(other.filter_.cutoff());
+  // Its path goes on from where it is; the pose begins anew in another body.
+  heading_ = other.heading_;
+  path_ = other.path_ * (other.scale_ / scale_);
+  if (!same_bones(other)) return true;
+  started_ = other.started_;
+  motion_ = other.motion_, foot_lock_ = other.foot_lock_;
+  walked_ = other.walked_, gentle_ = other.gentle_;
+  return true;
+}
+
+}  // namespace gait

@@ -1,0 +1,128 @@
+// Style walker: walks by itself in the model's styles, and no two cycles are alike (T10 §7).
+//
+// Each cycle has scores of its own in the space of styles and a duration of its own (eq. 2 and 4,
+// cycle_draws.h); over the last tenth of the phase they become those of the next. Beyond the paper
+// scores that went together in training go together here: drawn each for itself, as in eq. 2, they
+// make cycles that nobody walked. And styles mix by weights: mean, largest change of each score and
+// what goes together are interpolated, deviations as those of independent draws. However far all
+// that goes, knees and elbows bend no further than those that were learnt from (hinge_limits.h).
+//
+// Controls may be set between any two frames. What is set before the first frame holds from it on;
+// after that nothing jumps: styles, variation, exaggeration and pins arrive within about a step. A
+// control that cannot be set (not finite, no such style) changes nothing and returns false; numbers
+// out of a control's range are clamped to it.
+//
+// Nothing allocates, throws or locks after construction. Seconds, radians; phase in cycles, 0 at
+// the right contact, 0.5 at the left.
+#pragma once
+
+#include <Eigen/Core>
+#include <Eigen/Geometry>
+#include <cstdint>
+#include <memory>
+#include <optional>
+#include <span>
+#include <vector>
+
+#include "gait/model/model.h"
+#include "gait/motion/steps.h"
+#include "gait/play/change/glide.h"
+#include "gait/play/change/style_mix.h"
+#include "gait/play/cycles/cycle_draws.h"
+#include "gait/play/cycles/cycle_pose.h"
+#include "gait/play/cycles/hinge_limits.h"
+
+namespace gait {
+
+class StyleWalker {
+ public:
+  // Starts neutral, at phase 0. The same seed gives the same walk. `tables`: those of the model's
+  // style space when they were made already, to share them. Throws Error when the model has no
+  // style space or no body, saying how to train one that has.
+  StyleWalker(std::shared_ptr<const Model> model, std::uint64_t seed,
+              std::shared_ptr<const CycleTables> tables = nullptr);
+
+  // One weight per style of the model, not negative, normalised. See StyleMix::set.
+  bool set_weights(std::span<const float> weights) noexcept;
+  bool set_style(int style) noexcept;
+  // Whether a change of style goes through neutral (the style of that name or named normal, else
+  // all styles alike) instead of directly.
+  void set_through_neutral(bool through) noexcept { mix_.set_through_neutral(through); }
+  // 0: the mean cycle for ever; 1 as in training; up to 2.
+  bool set_variation(float variation) noexcept;
+  // Along the line from the mean of all styles to this one: 0 the mean, 1 the style, up to 3 a
+  // caricature, down to -1 its opposite.
+  bool set_exaggeration(float exaggeration) noexcept;
+  // Holds score `component` at `value` deviations of that component over all cycles, -6 to 6.
+  bool pin(int component, float value) noexcept;
+  bool free(int component) noexcept;
+  bool set_cadence_scale(float scale) noexcept;  // 0 (stands still in mid-step) to 4
+  bool set_cadence(
+      float steps_per_second) noexcept;  // instead of the style's; 0: the style's, to 8
+
+  // Starts anew at phase 0 with the first cycle of another walk; controls stay.
+  void restart(std::uint64_t seed) noexcept;
+
+  // Shows this cycle at another phase, 0 to 1 (1 left out): forth and back by hand. False, with
+  // nothing changed, for any other number.
+  bool scrub(double phase) noexcept;
+
+  // Moves on. At most half a cycle at a time: longer is cut short. False, without moving, when
+  // `seconds` is negative or not finite.
+  bool advance(double seconds) noexcept;
+
+  // Local rotations, one per joint of the model's body, the hips' with heading out: what
+  // RootMotion takes.
+  std::span<const Eigen::Quaternionf> pose() const noexcept { return pose_; }
+  double phase() const noexcept { return phase_; }
+  float cadence() const noexcept;                         // steps per second, now
+  std::int64_t cycle() const noexcept { return cycle_; }  // 0 the first
+  // The foot that met the ground during the last advance, and how many seconds before its end.
+  std::optional<Foot> contact() const noexcept { return contact_; }
+  double since_contact() const noexcept { return since_contact_; }
+
+  int components() const noexcept { return static_cast<int>(scores_.size()); }
+  const Eigen::VectorXf& scores() const noexcept { return scores_; }  // of this frame
+  float duration() const noexcept;  // of this cycle, as drawn: seconds, before the cadence controls
+  const Eigen::VectorXf& weights() const noexcept { return mix_.weights(); }
+
+ private:
+  bool set(Glide& glide, float value, float least, float most) noexcept;
+  void settle() noexcept;  // controls set before the first frame hold at once
+  void mix_styles() noexcept;
+  DrawBounds bounds(int i) const noexcept;
+  void draw_first_cycle() noexcept;
+  void draw_next(int count) noexcept;  // up to this many numbers of the next cycle
+  double frequency() const noexcept;   // cycles per second
+  void show() noexcept;
+
+  CyclePose cycle_pose_;
+  StyleMix mix_;
+  HingeLimits hinges_;
+  CycleDraws draws_;  // one per component, then the duration's
+
+  // Per style, columns: scores and then the duration; mixed by the weights.
+  Eigen::MatrixXf means_, deviations_, limits_;
+  Eigen::MatrixXf ranges_;                 // lowest and highest duration
+  std::vector<Eigen::MatrixXf> together_;  // columns: rows of the correlations' Cholesky factor
+  Eigen::VectorXf mean_, deviation_, limit_, range_;
+  Eigen::VectorXf overall_;           // mean of all styles
+  float shortest_ = 0, longest_ = 0;  // cycle, however exaggerated
+
+  Glide variation_{1}, exaggeration_{1};
+  std::vector<Glide> pinned_, pin_values_;  // how much, and at which score
+  Eigen::VectorXf component_deviations_;
+  float cadence_scale_ = 1, cadence_ = 0;
+
+  int drawn_ = 0;        // numbers of the next cycle that are drawn already
+  Eigen::VectorXf row_;  // of the mixed factor
+  bool moved_ = false;
+  double phase_ = 0;
+  std::int64_t cycle_ = 0;
+  std::optional<Foot> contact_;
+  double since_contact_ = 0;
+  Eigen::VectorXf scores_;
+  std::vector<Eigen::Quaternionf> pose_;
+};
+
+}  // namespace gait

@@ -1,0 +1,116 @@
+#include "gait/play/map/observation_map.h"
+
+#include <algorithm>
+#include <cmath>
+
+namespace gait {
+
+namespace {
+
+constexpr float strongest = 10, widest = 1000;
+
+bool is_strength(float strength) noexcept { return std::abs(strength) <= strongest; }
+
+}  // namespace
+
+ObservationMap::ObservationMap(std::shared_ptr<const Model> model,
+                               std::shared_ptr<const StateTables> tables)
+    : model_(std::move(model)),
+      tables_(tables ? std::move(tables) : make_state_tables(*model_)),
+      map_(*model_, tables_),
+      maker_(model_),
+      scaling_mean_(model_->input_scaling.mean.cast<float>()),
+      inverse_deviation_(model_->input_scaling.deviation.cwiseInverse().cast<float>()),
+      scaled_(Eigen::VectorXf::Zero(model_->input.size())),
+      bias_(model_->output.values, 0.0f),
+      unmodelled_(model_->output.values),
+      states_(Decoder::most_weighted),
+      wanted_(model_->input.values, false),
+      masked_(wanted_),
+      mean_(3 * model_->output.values, 0.0f),
+      variance_(mean_) {
+  const auto strength = static_cast<float>(model_->play.strength);
+  int begin = 0;
+  for (const Stream& stream : model_->outputs) {
+    streams_.push_back({begin, stream.size, strength});
+    begin += stream.size;
+  }
+  Eigen::Map<Eigen::VectorXf>(unmodelled_.data(), model_->output.values) =
+      model_->output_mean.cast<float>();
+}
+
+void ObservationMap::keep_tables_current(std::span<const int> missing) noexcept {
+  if (maker_.finished()) {
+    if (const auto fresh = maker_.ready()) map_.use(fresh);
+    maker_.take(tables_);
+    awaiting_ = false;
+  }
+  std::fill(wanted_.begin(), wanted_.end(), false);
+  for (const int value : missing) wanted_[value] = true;
+  if (wanted_ != masked_ && maker_.ask(wanted_)) {
+    awaiting_ = true;
+    std::copy(wanted_.begin(), wanted_.end(), masked_.begin());
+  }
+}
+
+void ObservationMap::map(std::span<const WeightedState> states, std::span<const int> missing,
+                         std::span<const float> observation) noexcept {
+  keep_tables_current(missing);
+  // As InputObserver scales it.
+  const auto known = static_cast<Eigen::Index>(observation.size());
+  const Eigen::Map<const Eigen::VectorXf> raw(observation.data(), known);
+  scaled_.head(known) =
+      (raw - scaling_mean_.head(known)).cwiseProduct(inverse_deviation_.head(known));
+  const OutputGaussian& gaussian = map_.map(states, scaled_, static_cast<int>(known));
+
+  const int values = model_->output.values, statics = model_->output.statics();
+  std::fill(mean_.begin(), mean_.end(), 0.0f);
+  std::fill(variance_.begin(), variance_.end(), 0.0f);
+  std::copy(unmodelled_.begin(), unmodelled_.end(), mean_.begin());
+  for (int part = 0; part < 3; ++part)
+    for (int i = 0; i < statics; ++i) {
+      const int value = part * values + model_->output.modelled[i];
+      mean_[value] = gaussian.mean[part * statics + i];
+      variance_[value] = spread_ * gaussian.variance[part * statics + i];
+    }
+  for (int value = 0; value < values; ++value) mean_[value] += bias_[value];
+}
+
+bool ObservationMap::set_strength(float strength) noexcept {
+  if (!is_strength(strength)) return false;
+  map_.set_strength(strength);
+  for (OutputStream& stream : streams_) stream.strength = strength;
+  return true;
+}
+
+bool ObservationMap::set_strength(int stream, float strength) noexcept {
+  if (stream < 0 || stream >= streams() || !is_strength(strength)) return false;
+  OutputStream& set = streams_[stream];
+  set.strength = strength;
+  const std::vector<int>& modelled = model_->output.modelled;
+  for (std::size_t i = 0; i < modelled.size(); ++i)
+    if (modelled[i] >= set.begin && modelled[i] < set.begin + set.size)
+      map_.set_strength(static_cast<int>(i), strength);
+  return true;
+}
+
+bool ObservationMap::set_bias(int stream, std::span<const float> bias) noexcept {
+  if (stream < 0 || stream >= streams() ||
+      bias.size() != static_cast<std::size_t>(streams_[stream].size) ||
+      !std::ranges::all_of(bias, [](float value) { return std::isfinite(value); }))
+    return false;
+  std::copy(bias.begin(), bias.end(), bias_.begin() + streams_[stream].begin);
+  return true;
+}
+
+bool ObservationMap::set_spread(float spread) noexcept {
+  if (!(spread > 0 && spread <= widest)) return false;
+  spread_ = spread;
+  return true;
+}
+
+std::span<const float> ObservationMap::bias(int stream) const noexcept {
+  return {bias_.data() + streams_[stream].begin, static_cast<std::size_t>(streams_[stream].size)};
+}
+
+}  // namespace gait

@@ -1,0 +1,57 @@
+#include "gait/play/recognise/emissions.h"
+
+namespace gait {
+
+namespace {
+
+int whole_panels(int entries) {
+  constexpr int panel = PackedTriangle::rows;
+  return (entries + panel - 1) / panel * panel;
+}
+
+}  // namespace
+
+Whitening::Whitening(int inputs)
+    : kept_(Eigen::VectorXf::Zero(whole_panels(inputs))), difference_(kept_), innovation_(kept_) {}
+
+void Whitening::take(const StateTables& tables,
+                     const Eigen::Ref<const Eigen::VectorXf>& x) noexcept {
+  for (std::size_t i = 0; i < tables.kept.size(); ++i)
+    kept_[static_cast<Eigen::Index>(i)] = x[tables.kept[i]];
+}
+
+Eigen::Map<const Eigen::VectorXf> Whitening::innovation(const PlayedState& state,
+                                                        int count) noexcept {
+  const Eigen::Index padded = state.input_mean.size();
+  difference_.head(padded) = kept_.head(padded) - state.input_mean;
+  multiply(state.whitener, difference_.data(), count, innovation_.data());
+  return {innovation_.data(), count};
+}
+
+Eigen::Map<const Eigen::VectorXf> Whitening::observation(int count) const noexcept {
+  return {kept_.data(), count};
+}
+
+Emissions::Emissions(std::shared_ptr<const StateTables> tables, const InputLayout& layout)
+    : tables_(std::move(tables)),
+      layout_(layout),
+      whitening_(layout.size()),
+      log_likelihoods_(tables_->states.size()),
+      squared_distances_(
+          Eigen::VectorXf::Zero(static_cast<Eigen::Index>(log_likelihoods_.size()))) {}
+
+std::span<const float> Emissions::of(const Eigen::Ref<const Eigen::VectorXf>& x,
+                                     int known) noexcept {
+  const int stage = tables_->stage_of(known, layout_);
+  seen_ = tables_->stages[stage];
+  whitening_.take(*tables_, x);
+  for (std::size_t state = 0; state < tables_->states.size(); ++state) {
+    const PlayedState& played = tables_->states[state];
+    const float squared = whitening_.innovation(played, seen_).squaredNorm();
+    squared_distances_[static_cast<Eigen::Index>(state)] = squared;
+    log_likelihoods_[state] = played.log_constant[stage] - 0.5f * squared;
+  }
+  return log_likelihoods_;
+}
+
+}  // namespace gait

@@ -1,0 +1,63 @@
+#include "gait/play/recognise/live_recogniser.h"
+
+#include <cmath>
+
+namespace gait {
+
+namespace {
+constexpr double strange_seconds = 0.3;  // over which distances are averaged
+}
+
+float unlikeness(float distance, float usual) noexcept {
+  if (!(distance > 0)) return 0;
+  const float ratio = usual / distance;
+  return 1 / (1 + ratio * ratio * ratio);
+}
+
+LiveRecogniser::LiveRecogniser(std::shared_ptr<const Model> model,
+                               const RecogniserSettings& settings,
+                               std::shared_ptr<const StateTables> tables, double longest_gap)
+    : stream_(model, longest_gap),
+      recogniser_(model, settings, std::move(tables)),
+      standing_(*model),
+      choice_(model->frame_rate),
+      forget_(static_cast<float>(1 - std::exp(-1 / (strange_seconds * model->frame_rate)))) {}
+
+void LiveRecogniser::begin_anew() noexcept {
+  recogniser_.reset();
+  standing_.reset();
+  choice_.reset();
+  next_is_first_ = true;
+}
+
+void LiveRecogniser::reset() noexcept {
+  stream_.reset();
+  begin_anew();
+}
+
+void LiveRecogniser::set_missing(int stream, bool missing) noexcept {
+  stream_.set_missing(stream, missing);
+  const int begin = stream_.first_value(stream);
+  for (int i = 0; i < recogniser_.model().inputs[stream].size; ++i) {
+    recogniser_.set_missing(begin + i, missing);
+    standing_.set_missing(begin + i, missing);
+  }
+}
+
+bool LiveRecogniser::next() noexcept {
+  while (stream_.next()) {
+    if (stream_.first_of_run()) begin_anew();
+    recogniser_.set_walking(standing_.advance(stream_.values()));
+    if (!recogniser_.advance(stream_.values())) continue;
+    first_ = next_is_first_;
+    next_is_first_ = false;
+    choice_.advance(recogniser_.styles());
+    const float now = recogniser_.decision().distance;
+    if (first_) distance_ = now;
+    distance_ += forget_ * (now - distance_);
+    return true;
+  }
+  return false;
+}
+
+}  // namespace gait

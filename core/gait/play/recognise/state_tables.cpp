@@ -1,0 +1,116 @@
+#include "gait/play/recognise/state_tables.h"
+
+#include <Eigen/Dense>
+#include <cmath>
+#include <numbers>
+
+#include "gait/error.h"
+
+namespace gait {
+
+namespace {
+
+// Linear discriminants of the styles from the leading `count` entries: score = w^T x + b.
+void set_styles(PlayedState& played, const Eigen::MatrixXd& means, const Eigen::MatrixXd& factor,
+                const std::vector<int>& stages) {
+  const Eigen::Index styles = means.cols();
+  played.style_bias.resize(styles, static_cast<Eigen::Index>(stages.size()));
+  for (std::size_t stage = 0; stage < stages.size(); ++stage) {
+    const int count = stages[stage];
+    const auto lower = factor.topLeftCorner(count, count).triangularView<Eigen::Lower>();
+    Eigen::MatrixXd weights = means.topRows(count);
+    lower.solveInPlace(weights);
+    played.style_bias.col(static_cast<Eigen::Index>(stage)) =
+        (-0.5 * weights.colwise().squaredNorm().transpose()).cast<float>();
+    lower.transpose().solveInPlace(weights);
+    played.style_weights.push_back(weights.transpose().cast<float>());
+  }
+}
+
+PlayedState played_state(const State& state, const StateTables& tables) {
+  PlayedState played;
+  const auto& kept = tables.kept;
+  const int count = static_cast<int>(kept.size());
+  const int inputs = static_cast<int>(state.mean.size()) - tables.outputs;
+  std::vector<int> outputs(tables.outputs);
+  for (int i = 0; i < tables.outputs; ++i) outputs[i] = inputs + i;
+
+  const Eigen::LLT<Eigen::MatrixXd> cholesky(state.covariance(kept, kept));
+  if (cholesky.info() != Eigen::Success)
+    throw Error("expected positive definite covariances; one of the model's is not");
+  const Eigen::MatrixXd lower = cholesky.matrixL();
+  Eigen::MatrixXd inverse = Eigen::MatrixXd::Identity(count, count);
+  cholesky.matrixL().solveInPlace(inverse);
+  played.whitener = PackedTriangle(inverse);
+  // G = Sigma_yx L^-T, in one product
+  const Eigen::MatrixXd gain = state.covariance(outputs, kept) * inverse.transpose();
+  played.gain = gain.cast<float>();
+  played.input_mean = Eigen::VectorXf::Zero(tables.padded);
+  played.input_mean.head(count) = state.mean(kept).cast<float>();
+  played.output_mean = state.mean.tail(tables.outputs).cast<float>();
+  played.output_variance = state.covariance.diagonal().tail(tables.outputs).cast<float>();
+
+  const auto stages = static_cast<Eigen::Index>(tables.stages.size());
+  played.log_constant.resize(stages);
+  played.explained_variance.resize(tables.outputs, stages);
+  for (Eigen::Index stage = 0; stage < stages; ++stage) {
+    const int known = tables.stages[stage];
+    played.log_constant[stage] =
+        static_cast<float>(-lower.diagonal().head(known).array().log().sum() -
+                           0.5 * known * std::log(2 * std::numbers::pi));
+    played.explained_variance.col(stage) =
+        gain.leftCols(known).rowwise().squaredNorm().cast<float>();
+  }
+  if (tables.styles > 0) {
+    const Eigen::LLT<Eigen::MatrixXd> within(state.style_covariance(kept, kept));
+    if (within.info() != Eigen::Success)
+      throw Error("expected positive definite style covariances; one of the model's is not");
+    set_styles(played, state.style_means(kept, Eigen::all), within.matrixL(), tables.stages);
+  }
+  played.log_stay = static_cast<float>(std::log(state.stay));
+  played.log_leave = static_cast<float>(std::log1p(-state.stay));
+  played.mean_duration = static_cast<float>(state.duration);
+  return played;
+}
+
+}  // namespace
+
+int StateTables::stage_of(int known, const InputLayout& layout) const {
+  const int lags = layout.statics() == 0 ? 0 : known / layout.statics() - 1;
+  return std::min(std::max(lags, 0), static_cast<int>(stages.size()) - 1);
+}
+
+std::shared_ptr<const StateTables> make_state_tables(const Model& model,
+                                                     const std::vector<bool>& missing) {
+  auto tables = std::make_shared<StateTables>();
+  const int statics = model.input.statics();
+  for (int entry = 0; entry < model.input.size(); ++entry)
+    if (missing.empty() || !missing[model.input.modelled[entry % statics]])
+      tables->kept.push_back(entry);
+  if (tables->kept.empty())
+    throw Error("expected at least one input that is there; all are missing");
+  const int kept_statics = static_cast<int>(tables->kept.size()) / (model.input.size() / statics);
+  for (std::size_t stage = 0; stage <= model.input.lags.size(); ++stage)
+    tables->stages.push_back(kept_statics * static_cast<int>(stage + 1));
+  tables->outputs = model.output.size();
+  tables->styles = static_cast<int>(model.styles.size());
+  constexpr int panel = PackedTriangle::rows;
+  tables->padded = (static_cast<int>(tables->kept.size()) + panel - 1) / panel * panel;
+
+  for (std::size_t label = 0; label < model.labels.size(); ++label) {
+    tables->first_state.push_back(static_cast<int>(tables->states.size()));
+    tables->successors.push_back(model.labels[label].successors);
+    float before = 0;
+    for (const State& state : model.labels[label].states) {
+      PlayedState played = played_state(state, *tables);
+      played.label = static_cast<int>(label);
+      played.before = before;
+      before += played.mean_duration;
+      tables->states.push_back(std::move(played));
+    }
+    tables->label_duration.push_back(before);
+  }
+  return tables;
+}
+
+}  // namespace gait

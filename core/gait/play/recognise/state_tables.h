@@ -1,0 +1,55 @@
+// What playing computes with: each state's Gaussian, factored for the inputs that are there.
+//
+// With Sigma_xx = L L^T the whitened innovation e = L^-1 (x - mu_x) gives both the log-likelihood,
+// from |e|^2, and the mapping (T14 §4.2): K (x - mu_x) = G e with G = Sigma_yx L^-T. Leading
+// entries of e depend on leading entries of x alone, so an observation whose history is not real
+// yet is decoded exactly from its leading part, without another factorisation. A change of the set
+// of inputs needs new tables: they are made on a worker and swapped in.
+#pragma once
+
+#include <Eigen/Core>
+#include <memory>
+#include <vector>
+
+#include "gait/model/model.h"
+#include "gait/play/recognise/triangular.h"
+
+namespace gait {
+
+struct PlayedState {
+  int label = 0;
+  Eigen::VectorXf input_mean;                    // of the kept entries of x, padded with zeros
+  PackedTriangle whitener;                       // L^-1
+  Eigen::VectorXf log_constant;                  // per stage
+  Eigen::MatrixXf gain;                          // G: y by kept entries, scaled
+  Eigen::VectorXf output_mean, output_variance;  // of y, scaled
+  Eigen::MatrixXf explained_variance;            // diagonal of G G^T, y by stage
+  std::vector<Eigen::MatrixXf> style_weights;    // per stage: styles by kept entries
+  Eigen::MatrixXf style_bias;                    // styles by stage
+  float log_stay = 0, log_leave = 0;
+  float mean_duration = 0;  // seconds
+  float before = 0;         // mean durations of the label's states before this, seconds
+};
+
+struct StateTables {
+  std::vector<int> kept;    // entries of x that are there, ascending
+  std::vector<int> stages;  // how many kept entries are known: statics, then one lag more each
+  int outputs = 0;          // entries of y
+  int styles = 0;
+  int padded = 0;                   // kept entries rounded up to whole panels
+  std::vector<PlayedState> states;  // label after label
+  std::vector<int> first_state;     // per label
+  std::vector<std::vector<int>> successors;
+  std::vector<float> label_duration;  // seconds
+
+  int labels() const { return static_cast<int>(first_state.size()); }
+  // The stage at which `known` leading entries of x are real.
+  int stage_of(int known, const InputLayout& layout) const;
+};
+
+// `missing`: one per input value, true when it is not measured; empty: all are. Throws Error when
+// nothing is left to see, or a covariance is not positive definite.
+std::shared_ptr<const StateTables> make_state_tables(const Model& model,
+                                                     const std::vector<bool>& missing = {});
+
+}  // namespace gait

@@ -1,0 +1,50 @@
+#include "gait/play/recognise/style_recogniser.h"
+
+#include <cmath>
+
+namespace gait {
+
+StyleRecogniser::StyleRecogniser(const Model& model, std::shared_ptr<const StateTables> tables)
+    : tables_(std::move(tables)),
+      layout_(model.input),
+      kept_(model.input.size()),
+      score_(Eigen::VectorXf::Zero(static_cast<Eigen::Index>(model.styles.size()))),
+      averaged_(score_),
+      posteriors_(score_),
+      frame_rate_(model.frame_rate),
+      temper_(static_cast<float>(model.play.style_temper)) {
+  set_memory(static_cast<float>(model.play.style_memory));
+  reset();
+}
+
+void StyleRecogniser::set_memory(float seconds) noexcept {
+  keep_ = seconds > 0 ? static_cast<float>(std::exp(-1 / (seconds * frame_rate_))) : 0.0f;
+}
+
+void StyleRecogniser::reset() noexcept {
+  averaged_.setZero();
+  if (posteriors_.size() > 0)
+    posteriors_.setConstant(1.0f / static_cast<float>(posteriors_.size()));
+  best_ = posteriors_.size() > 0 ? 0 : -1;
+}
+
+void StyleRecogniser::advance(std::span<const WeightedState> states,
+                              const Eigen::Ref<const Eigen::VectorXf>& x, int known) noexcept {
+  if (posteriors_.size() == 0) return;
+  const int stage = tables_->stage_of(known, layout_);
+  kept_.take(*tables_, x);
+  const auto observation = kept_.observation(tables_->stages[stage]);
+  score_.setZero();
+  for (const WeightedState& weighted : states) {
+    const PlayedState& state = tables_->states[weighted.state];
+    score_.noalias() += weighted.weight * (state.style_weights[stage] * observation);
+    score_ += weighted.weight * state.style_bias.col(stage);
+  }
+  // What all styles share says nothing about them; without it the numbers stay small.
+  score_.array() -= score_.mean();
+  averaged_ = keep_ * averaged_ + (1 - keep_) * score_;
+  posteriors_ = (temper_ * (averaged_.array() - averaged_.maxCoeff(&best_))).exp();
+  posteriors_ /= posteriors_.sum();
+}
+
+}  // namespace gait

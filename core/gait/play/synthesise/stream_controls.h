@@ -1,0 +1,47 @@
+// A player's hands on single streams while they play: scaled about their mean, shifted, or fixed.
+//
+// A stream is a joint's rotation vector (radians) or plain values in their own unit. Changes arrive
+// within about a step. Nothing allocates after construction.
+#pragma once
+
+#include <Eigen/Core>
+#include <span>
+#include <vector>
+
+#include "gait/model/model.h"
+#include "gait/play/change/glide.h"
+
+namespace gait {
+
+class StreamControls {
+ public:
+  explicit StreamControls(const std::vector<Stream>& streams);
+
+  // False, with nothing changed, when there is no such stream, the size is another or a number is
+  // not finite.
+  bool set_scale(int stream, float scale) noexcept;  // 1: as it is; -10 to 10
+  bool set_shift(int stream, std::span<const float> by) noexcept;
+  bool fix(int stream, std::span<const float> at) noexcept;
+  bool free(int stream) noexcept;  // from all three
+
+  void advance(float steps) noexcept;
+  void arrive() noexcept;
+  // Changes `values` (of all streams), whose means are `means`.
+  void apply(const Eigen::VectorXf& means, Eigen::Ref<Eigen::VectorXf> values) const noexcept;
+
+  int values() const noexcept { return values_; }
+  void take_over(const StreamControls& other) noexcept;  // settings; the same streams
+
+ private:
+  struct Control {
+    int begin = 0, size = 0;  // of its values
+    Glide scale{1}, fixed{0};
+  };
+  bool fits(int stream, std::span<const float> values) const noexcept;
+
+  std::vector<Control> controls_;
+  std::vector<Glide> shifts_, places_;  // per value
+  int values_ = 0;
+};
+
+}  // namespace gait

@@ -1,0 +1,150 @@
+// Synthesiser (T14 §4.3, MAGE): Gaussians in, smooth output frames out; without them it walks
+// alone.
+//
+// Fed, it runs the trajectory generator over the frames' Gaussians: with settings at their defaults
+// its outputs are the Player's. Alone it is a StepWalker. When the input stops it hands out what
+// was held back, then walks on from the very outputs it was in, or comes to rest, or stops; when
+// the input returns it stays alone until the observations' history is whole again and the walker
+// has fallen in step (two seconds at most; at once when nobody says where the walk is), then goes
+// over. Hand-overs are continuous in value and speed.
+//
+// A whole body is the input joints with the outputs. Only the walker knows input joints: while it
+// is fed they stay where the walker had them last (at first, in the mean of training).
+//
+// Nothing allocates, throws or locks after construction, but for set_past and set_future. Radians,
+// seconds; values and poses as in the model's streams.
+#pragma once
+
+#include <Eigen/Core>
+#include <memory>
+#include <optional>
+#include <span>
+#include <vector>
+
+#include "gait/model/model.h"
+#include "gait/play/change/stream_hand_over.h"
+#include "gait/play/synthesise/on_lost.h"
+#include "gait/play/synthesise/step_walker.h"
+#include "gait/play/synthesise/stream_controls.h"
+#include "gait/play/synthesise/trajectory.h"
+
+namespace gait {
+
+struct SynthesiserSettings {
+  std::optional<int> past, future;  // frames of the fed trajectory's queue: P, F; else the model's
+};
+
+class Synthesiser {
+ public:
+  static constexpr int longest_past = 600, longest_future = 120;  // frames
+
+  // `tables`: the model's, to share them. Throws Error as StepWalker does.
+  explicit Synthesiser(std::shared_ptr<const Model> model, const SynthesiserSettings& settings = {},
+                       std::shared_ptr<const StepTables> tables = nullptr);
+
+  // Takes the next frame's Gaussian over all output values: statics, first, then second differences
+  // per frame, 3 * model.output.values of either. Values that the model leaves out keep their mean.
+  // True when a frame was made; false while the future's first frames come in. `after_gap`: nothing
+  // came for longer than a frame, though nobody said that the input had stopped; when the frame
+  // does not follow the one shown, the trajectory begins anew and is gone over to.
+  bool push(std::span<const float> means, std::span<const float> variances,
+            bool after_gap = false) noexcept;
+  // Whether push would take them: of that size, finite, variances of modelled values positive.
+  bool fits(std::span<const float> means, std::span<const float> variances) const noexcept;
+  // Makes the next frame, 1 / model.frame_rate on, without one. False when it stopped, or when
+  // there is nothing to hold.
+  bool go_on() noexcept;
+
+  // Where whoever feeds it is: phase of the cycle, labels per second, a weight per style. From
+  // there it goes on, and with that it falls in step. False, with nothing changed, when a number is
+  // not finite or the weights are not as many as the styles.
+  bool set_place(float phase, float cadence, std::span<const float> weights) noexcept;
+  // Whether whoever feeds it walks: who stood when the input stopped stands on.
+  void set_walking(bool walking) noexcept;
+  void set_on_lost(OnLost what) noexcept { on_lost_ = what; }
+
+  // Frames of the fed trajectory's queue. These allocate.
+  void set_past(int frames);
+  void set_future(int frames);
+  int past() const noexcept { return trajectory_.past(); }
+  int future() const noexcept { return trajectory_.future(); }  // frames by which output is late
+
+  // Controls of single streams, inputs then outputs (StreamControls), for both ways of walking.
+  bool set_scale(int stream, float scale) noexcept;
+  bool set_shift(int stream, std::span<const float> by) noexcept;
+  bool fix(int stream, std::span<const float> at) noexcept;
+  bool free(int stream) noexcept;
+
+  // Of the last frame made.
+  bool alone() const noexcept { return alone_; }    // without input
+  bool walks() const noexcept;                      // alone, by the walker: then ask it where
+  std::span<const float> outputs() const noexcept;  // model.output.values
+  // Per joint of the body three values relative to its reference; without a body the inputs'
+  // values, then the outputs'.
+  std::span<const float> pose() const noexcept { return pose_; }
+
+  // What walks alone, to control it: its queue, durations and styles. Streams: see above.
+  StepWalker& walker() noexcept { return walker_; }
+  const StepWalker& walker() const noexcept { return walker_; }
+  const Model& model() const noexcept { return *model_; }
+
+  // Anew, alone and unfed; settings stay.
+  void reset() noexcept;
+  // Goes on where another one is, whose model may be another; settings live on. False, with nothing
+  // changed, unless the models are of equal sizes. Allocates when the queues' lengths differ.
+  bool take_over(const Synthesiser& other);
+
+ private:
+  struct Moving {  // the last two frames of a motion, inputs' values then outputs'
+    Eigen::VectorXf now, before;
+    void take(const Eigen::VectorXf& values) noexcept;
+  };
+
+  void load(std::span<const float> means, std::span<const float> variances) noexcept;
+  void take_fed(const Eigen::Ref<const Eigen::VectorXf>& modelled, int back) noexcept;
+  void take_walked() noexcept;
+  void begin_alone() noexcept;
+  void walk_from_shown() noexcept;
+  void hand_over_to(const Moving& motion, bool speed_known) noexcept;
+  bool follows_shown() const noexcept;
+  bool in_step() noexcept;
+  void make_alone() noexcept;
+  void show(const Moving& motion) noexcept;
+  void move_place() noexcept;
+  void restart_fed() noexcept;
+  OnLost wanted() const noexcept;
+  void resize(int past, int future);
+
+  std::shared_ptr<const Model> model_;
+  StepWalker walker_;
+  Trajectory trajectory_;
+  StreamControls controls_;  // of fed frames
+  StreamHandOver hand_over_;
+  float period_, cadence_;      // of a frame, seconds; labels per second in the model's mean
+  int inputs_;                  // values
+  int settling_, patience_;     // frames
+  std::vector<int> positions_;  // in the pose, per value of inputs and outputs; -1: in none
+
+  OutputGaussian gaussian_;
+  Eigen::MatrixXf statics_;  // of all output values: a ring, future + 1 columns
+  int newest_ = 0;
+  int flushed_ = 0;     // of the frames that the future holds back, since the input stopped
+  bool jumps_ = false;  // the next fed frame does not follow the one shown
+
+  OnLost on_lost_ = OnLost::walk, alone_as_ = OnLost::walk;
+  bool alone_ = false, walking_ = true, stood_ = false;
+  int returned_ = 0;      // frames fed again while still alone
+  int shown_frames_ = 0;  // at most 2
+  struct {
+    bool known = false, fresh = false, just_said = false;
+    float phase = 0, cadence = 0;
+  } place_;
+  std::vector<float> weights_;
+  float labels_in_cycle_;
+
+  Eigen::VectorXf means_, scratch_;  // of all values
+  Moving shown_, walked_, fed_;
+  std::vector<float> pose_;
+};
+
+}  // namespace gait

@@ -1,0 +1,128 @@
+#include "gait/teach/takes_file.h"
+
+#include <algorithm>
+#include <cmath>
+#include <fstream>
+#include <iomanip>
+#include <sstream>
+
+#include "gait/error.h"
+
+namespace gait {
+
+namespace {
+
+constexpr const char* first_line = "gait takes 1";
+constexpr int most_values = 10000, most_frames = 10000000;
+
+[[noreturn]] void fail(const std::string& path, int line, const std::string& expected) {
+  throw Error(path + ":" + std::to_string(line) + ": expected " + expected);
+}
+
+// A frame's line into the take; false when it is not one.
+bool read_frame(const std::string& line, RecordedTake& take) {
+  std::istringstream words(line);
+  double seconds = 0;
+  if (!(words >> seconds) || !std::isfinite(seconds)) return false;
+  if (!take.seconds.empty() && seconds <= take.seconds.back()) return false;
+  const std::size_t count = take.values.size();
+  float value = 0;
+  while (words >> value) {
+    if (!std::isfinite(value)) return false;
+    take.values.push_back(value);
+  }
+  if (!words.eof() ||
+      take.values.size() - count != static_cast<std::size_t>(take.inputs + take.outputs))
+    return false;
+  take.seconds.push_back(seconds);
+  return true;
+}
+
+}  // namespace
+
+void write_takes_header(std::ostream& file) { file << first_line << '\n'; }
+
+void write_take(const RecordedTake& take, std::ostream& file) {
+  const bool plain =
+      !take.label.empty() && take.label.find_first_of(" \t\"\\") == std::string::npos;
+  file << "take ";
+  if (plain)
+    file << take.label;
+  else
+    file << std::quoted(take.label);
+  file << ' ' << take.frames() << ' ' << take.inputs << ' ' << take.outputs << '\n';
+  const auto width = static_cast<std::size_t>(take.inputs + take.outputs);
+  file << std::setprecision(9);
+  for (std::size_t frame = 0; frame < take.seconds.size(); ++frame) {
+    file << take.seconds[frame];
+    for (std::size_t i = 0; i < width; ++i) file << ' ' << take.values[frame * width + i];
+    file << '\n';
+  }
+}
+
+std::vector<RecordedTake> read_takes(const std::string& path) {
+  std::ifstream file(path);
+  if (!file) throw Error(path + ": expected a file that can be read");
+  std::string line;
+  int number = 1;
+  if (!std::getline(file, line) || line != first_line)
+    fail(path, number, "'" + std::string(first_line) + "'");
+  std::vector<RecordedTake> takes;
+  while (++number, std::getline(file, line)) {
+    if (line.empty()) continue;
+    std::istringstream words(line);
+    std::string word, label;
+    int frames = 0;
+    RecordedTake take;
+    if (!(words >> word) || word != "take") fail(path, number, "a line that begins with 'take'");
+    words >> std::ws;
+    if (words.peek() == '"')
+      words >> std::quoted(take.label);
+    else
+      words >> take.label;
+    if (!(words >> frames >> take.inputs >> take.outputs) || frames < 0 || frames > most_frames ||
+        take.inputs < 0 || take.outputs < 0 || take.inputs + take.outputs > most_values)
+      fail(path, number, "take LABEL FRAMES INPUTS OUTPUTS");
+    for (int frame = 0; frame < frames; ++frame) {
+      ++number;
+      const bool there = static_cast<bool>(std::getline(file, line));
+      // A crash in the midst of writing: what is whole stays.
+      if (!there || file.eof()) return takes;
+      if (!read_frame(line, take))
+        fail(path, number,
+             "seconds, greater than before, and " + std::to_string(take.inputs + take.outputs) +
+                 " numbers");
+    }
+    takes.push_back(std::move(take));
+  }
+  return takes;
+}
+
+Take at_rate(const RecordedTake& take, double frame_rate) {
+  Take result;
+  result.label = take.label;
+  const int frames = take.frames() == 0
+                         ? 0
+                         : static_cast<int>(std::floor(take.duration() * frame_rate + 1e-6)) + 1;
+  result.inputs.resize(take.inputs, frames);
+  result.outputs.resize(take.outputs, frames);
+  const int width = take.inputs + take.outputs;
+  using Row = Eigen::Map<const Eigen::VectorXf>;
+  std::size_t after = 0;
+  for (int frame = 0; frame < frames; ++frame) {
+    const double at = frame / frame_rate;
+    while (after + 1 < take.seconds.size() && take.seconds[after] < at) ++after;
+    const std::size_t before = after > 0 ? after - 1 : 0;
+    const double gap = take.seconds[after] - take.seconds[before];
+    const auto share =
+        static_cast<float>(gap > 0 ? std::clamp((at - take.seconds[before]) / gap, 0.0, 1.0) : 1);
+    const Row a(take.values.data() + before * width, width),
+        b(take.values.data() + after * width, width);
+    const Eigen::VectorXd value = ((1 - share) * a + share * b).cast<double>();
+    result.inputs.col(frame) = value.head(take.inputs);
+    result.outputs.col(frame) = value.tail(take.outputs);
+  }
+  return result;
+}
+
+}  // namespace gait
