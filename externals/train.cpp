@@ -4,6 +4,7 @@
 #include <cmath>
 #include <filesystem>
 
+#include "gait/cancel.h"
 #include "gait/corpus/demo_model.h"
 #include "gait/error.h"
 #include "gait/model/body_motion.h"
@@ -26,7 +27,7 @@ constexpr int most_values = 1000;  // of -in and -out
 // What the learning thread and the box share.
 struct Learning {
   std::atomic<float> progress{0};
-  std::stop_source stop;
+  Cancel stop;
   TakesLearnt learnt;
   SharedModel model;
   std::string reason;  // when it failed
@@ -84,7 +85,7 @@ class Train final : public ModelUser {
   }
   ~Train() override {
     recorder_->stop();  // on disk before the box goes
-    if (learning_) learning_->stop.request_stop();
+    if (learning_) learning_->stop.request();
   }
 
   void in(const Arguments& arguments) {
@@ -171,7 +172,7 @@ class Train final : public ModelUser {
   void train(const Arguments&);
   void cancel(const Arguments&) {
     if (!learning_) throw Error("gait.train: cancel: nothing is being learnt");
-    learning_->stop.request_stop();
+    learning_->stop.request();
   }
   void write(const Arguments& arguments) {
     arguments.expect_count(1);
@@ -324,7 +325,7 @@ void Train::train(const Arguments&) {
        base = inputs_ == 0 ? body_model() : nullptr] {
         try {
           TakeOptions options;
-          options.cancel = learning->stop.get_token();
+          options.cancel = learning->stop;
           options.progress = [&](double share, const std::string&) {
             learning->progress = static_cast<float>(share);
           };

@@ -53,7 +53,7 @@ void listen(const ListenOptions& options) {
   Recorder recorder;
   osc::MocapEvent event;
   const auto begin = std::chrono::steady_clock::now();
-  while (!interrupt.token().stop_requested()) {
+  while (!interrupt.requested()) {
     while (receiver.pop(event)) gatherer.take(event, recorder);
     gatherer.end_old(osc::Receiver::now(), recorder);
     const std::chrono::duration<double> passed = std::chrono::steady_clock::now() - begin;

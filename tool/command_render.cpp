@@ -1,7 +1,6 @@
 // gait render: clips as a film strip of stick figures, or as a film.
 #include <algorithm>
 #include <cctype>
-#include <charconv>
 #include <cmath>
 #include <filesystem>
 #include <memory>
@@ -17,6 +16,7 @@
 #include "draw/walk_view.h"
 #include "gait/corpus/demo_model.h"
 #include "gait/error.h"
+#include "gait/numbers.h"
 #include "output_file.h"
 #include "progress.h"
 #include "speed_words.h"
@@ -39,10 +39,8 @@ struct RenderOptions {
 double camera_degrees(const std::string& view) {
   if (view == "side") return 90;
   if (view == "front") return 0;
-  double degrees = 0;
-  const char* end = view.data() + view.size();
-  const auto [stop, error] = std::from_chars(view.data(), end, degrees);
-  return error == std::errc() && stop == end && std::abs(degrees) <= 360 ? degrees : NAN;
+  const auto degrees = number_in(view);
+  return degrees && std::abs(*degrees) <= 360 ? *degrees : NAN;
 }
 
 std::string view_fault(const std::string& view) {

@@ -108,7 +108,7 @@ void stream(const StreamOptions& options) {
     std::this_thread::sleep_until(begin +
                                   std::chrono::duration_cast<std::chrono::steady_clock::duration>(
                                       std::chrono::duration<double>(count / clip.frame_rate)));
-    if (interrupt.token().stop_requested()) break;
+    if (interrupt.requested()) break;
     teller.send(to, count);
   }
   if (teller.refused() > 0)

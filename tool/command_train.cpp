@@ -102,7 +102,7 @@ Trained learn_from(const TrainOptions& options, const Interrupt& interrupt) {
   interrupt.check();
 
   SelectionOptions selection = selection_of(options);
-  selection.learning.hmm.cancel = interrupt.token();
+  selection.learning.hmm.cancel = interrupt.cancel();
   selection.learning.hmm.progress = [&](double share, const std::string& what) {
     progress.show(0.3 + 0.7 * share, what);
   };

@@ -14,29 +14,29 @@ Interrupt::Interrupt() {
   sigaddset(&waited_for_, SIGTERM);
   // A signal handler may hardly do anything; a thread that waits for the signals may do all.
   pthread_sigmask(SIG_BLOCK, &waited_for_, &before_);
-  waiter_ = std::jthread([this](const std::stop_token& enough) {
+  waiter_ = JoiningThread([this] {
     const timespec while_waiting{0, 50'000'000};
-    while (!enough.stop_requested()) {
+    while (!enough_) {
       const int signal = sigtimedwait(&waited_for_, nullptr, &while_waiting);
       if (signal < 0) continue;
-      if (stop_.stop_requested()) {
+      if (cancel_.requested()) {
         std::signal(signal, SIG_DFL);
         pthread_sigmask(SIG_UNBLOCK, &waited_for_, nullptr);
         std::raise(signal);
       }
-      stop_.request_stop();
+      cancel_.request();
     }
   });
 }
 
 Interrupt::~Interrupt() {
-  waiter_.request_stop();
+  enough_ = true;
   waiter_.join();
   pthread_sigmask(SIG_SETMASK, &before_, nullptr);
 }
 
 void Interrupt::check() const {
-  if (stop_.stop_requested()) throw Error("cancelled");
+  if (cancel_.requested()) throw Error("cancelled");
 }
 
 }  // namespace gait::tool

@@ -1,9 +1,11 @@
 // Ctrl-C during long work: asks it to stop in good order. A second one ends the program at once.
 #pragma once
 
+#include <atomic>
 #include <csignal>
-#include <stop_token>
-#include <thread>
+
+#include "gait/cancel.h"
+#include "gait/joining_thread.h"
 
 namespace gait::tool {
 
@@ -15,14 +17,16 @@ class Interrupt {
   Interrupt(const Interrupt&) = delete;
   Interrupt& operator=(const Interrupt&) = delete;
 
-  std::stop_token token() const { return stop_.get_token(); }
+  const Cancel& cancel() const { return cancel_; }
+  bool requested() const { return cancel_.requested(); }
   // Throws Error("cancelled") when a stop was requested.
   void check() const;
 
  private:
   sigset_t waited_for_{}, before_{};
-  std::stop_source stop_;
-  std::jthread waiter_;
+  Cancel cancel_;
+  std::atomic<bool> enough_{false};  // the signals are waited for no longer
+  JoiningThread waiter_;
 };
 
 }  // namespace gait::tool

@@ -1,13 +1,13 @@
 #include "manifest.h"
 
 #include <algorithm>
-#include <charconv>
 #include <cmath>
 #include <fstream>
 #include <iterator>
 #include <set>
 
 #include "gait/error.h"
+#include "gait/numbers.h"
 
 namespace gait::tool {
 
@@ -76,12 +76,9 @@ class CsvReader {
 };
 
 double speed_of(const std::string& text, const CsvReader& reader) {
-  double speed = 0;
-  const char* end = text.data() + text.size();
-  const auto [stop, error] = std::from_chars(text.data(), end, speed);
-  if (error != std::errc() || stop != end || !std::isfinite(speed) || speed < 0)
-    reader.fail("expected a speed in m/s, found '" + text + "'");
-  return speed;
+  const auto speed = number_in(text);
+  if (!speed || *speed < 0) reader.fail("expected a speed in m/s, found '" + text + "'");
+  return *speed;
 }
 
 }  // namespace

@@ -2,11 +2,11 @@
 
 #include <algorithm>
 #include <cctype>
-#include <charconv>
 #include <cmath>
 #include <map>
 
 #include "commands.h"
+#include "gait/numbers.h"
 
 namespace gait::tool {
 
@@ -82,12 +82,11 @@ bool NamePattern::takes(Field field, std::string_view text, NameFields& fields) 
     case Field::take:
       return !text.empty() && std::all_of(text.begin(), text.end(), is_digit);
     case Field::speed: {
-      double speed = 0;
-      const auto [stop, error] =
-          std::from_chars(text.data(), text.data() + text.size(), speed, std::chars_format::fixed);
-      fields.speed = speed;
-      return error == std::errc() && stop == text.data() + text.size() && speed >= 0 &&
-             std::isfinite(speed);
+      if (text.find_first_of("eE") != std::string_view::npos)
+        return false;  // names have no exponents
+      const auto speed = number_in(text);
+      fields.speed = speed.value_or(0);
+      return speed && *speed >= 0;
     }
     default:
       return true;

@@ -4,7 +4,7 @@
 #include <sstream>
 
 #include "commands.h"
-#include "number_words.h"
+#include "gait/numbers.h"
 
 namespace gait::tool {
 
@@ -31,7 +31,7 @@ std::vector<double> speeds_said(const std::string& text, char separator,
     else if (said.ends_with("m/s"))
       said.remove_suffix(3), unit = 1;
     while (said.ends_with(' ')) said.remove_suffix(1);
-    const std::optional<double> speed = number_said(said);
+    const std::optional<double> speed = number_in(said);
     if (!speed)
       throw UsageError(option + " " + text + ": expected a speed in m/s or with the suffix km/h, " +
                        "found '" + *part + "'");
@@ -43,7 +43,7 @@ std::vector<double> speeds_said(const std::string& text, char separator,
 std::vector<double> lengths_said(const std::string& text, const std::string& option) {
   std::vector<double> lengths;
   for (const std::string& part : parts_of(text, ',')) {
-    const std::optional<double> length = number_said(part);
+    const std::optional<double> length = number_in(part);
     if (!length || *length <= 0)
       throw UsageError(option + " " + text + ": expected a length in metres, found '" + part + "'");
     lengths.push_back(*length);

@@ -4,7 +4,7 @@
 #include <sstream>
 
 #include "commands.h"
-#include "number_words.h"
+#include "gait/numbers.h"
 
 namespace gait::tool {
 
@@ -17,7 +17,7 @@ std::vector<StyleShare> mix_said(const std::string& text, const std::string& opt
   for (std::string part; std::getline(stream, part, ',');) {
     const std::size_t equals = part.rfind('=');
     const std::optional<double> weight =
-        equals == std::string::npos ? std::nullopt : number_said(part.substr(equals + 1));
+        equals == std::string::npos ? std::nullopt : number_in(part.substr(equals + 1));
     if (!weight || equals == 0)
       throw UsageError(option + " " + text + ": expected STYLE=WEIGHT, found '" + part + "'");
     mix.push_back({part.substr(0, equals), *weight});
@@ -28,7 +28,7 @@ std::vector<StyleShare> mix_said(const std::string& text, const std::string& opt
 StyleChange change_said(const std::string& text, const std::string& option) {
   const std::size_t at = text.rfind('@');
   const std::optional<double> seconds =
-      at == std::string::npos ? std::nullopt : number_said(text.substr(at + 1));
+      at == std::string::npos ? std::nullopt : number_in(text.substr(at + 1));
   if (!seconds || *seconds < 0 || at == 0)
     throw UsageError(option + " " + text + ": expected STYLE@SECONDS");
   return {*seconds, mix_said(text.substr(0, at), option)};

@@ -183,12 +183,12 @@ TEST(ModelSelection, reports_progress_that_never_goes_back) {
 TEST(ModelSelection, can_be_cancelled_at_every_stage) {
   for (const double when : {0.0, 0.3, 0.6, 0.9, 1.0}) {
     SelectionOptions options = quick();
-    std::stop_source source;
-    options.learning.hmm.cancel = source.get_token();
+    Cancel source;
+    options.learning.hmm.cancel = source;
     options.learning.hmm.progress = [&](double share, const std::string&) {
-      if (share >= when) source.request_stop();
+      if (share >= when) source.request();
     };
-    if (when == 0) source.request_stop();
+    if (when == 0) source.request();
     if (when == 1) {
       EXPECT_NO_THROW(select_model(task_of(4, 6, 4, 0.2, 9), options)) << "it was done already";
       continue;

@@ -143,15 +143,15 @@ TEST(HmmTrainer, reports_progress_and_can_be_cancelled) {
   HmmOptions options = many_rounds(10);
   double before = -1;
   int reports = 0;
-  std::stop_source source;
+  Cancel source;
   options.progress = [&](double share, const std::string& what) {
     EXPECT_GT(share, before);
     EXPECT_LE(share, 1);
     EXPECT_FALSE(what.empty());
     before = share;
-    if (++reports == 4) source.request_stop();
+    if (++reports == 4) source.request();
   };
-  options.cancel = source.get_token();
+  options.cancel = source;
   try {
     train_states(sequences, StateTable({2, 2}), 2, options);
     FAIL() << "not cancelled";

@@ -73,9 +73,9 @@ TEST(NoAllocation, is_noticed_by_this_test) {
   EXPECT_EQ(releases, 1);
   // Other threads are free to take what they need.
   {
-    std::unique_ptr<std::jthread> other;
+    std::unique_ptr<JoiningThread> other;
     std::vector<int> made;
-    other = std::make_unique<std::jthread>([&] { made.resize(1000); });
+    other = std::make_unique<JoiningThread>([&] { made.resize(1000); });
     const ForbiddenMemory forbidden;
     other->join();
     EXPECT_EQ(forbidden.allocations(), 0);

@@ -1,10 +1,9 @@
 #include "gait/corpus/demo_motion.h"
 
-#include <charconv>
-
 #include "gait/corpus/corpus.h"
 #include "gait/corpus/demo_model.h"
 #include "gait/error.h"
+#include "gait/numbers.h"
 
 namespace gait {
 
@@ -15,12 +14,11 @@ constexpr std::uint64_t another_walker = 2;  // the demonstration model learnt f
 constexpr double frame_rate = 30;
 
 int take_in(std::string_view text, std::string_view name) {
-  int take = 0;
-  const auto [stop, error] = std::from_chars(text.data(), text.data() + text.size(), take);
-  if (error != std::errc{} || stop != text.data() + text.size() || take < 1 || take > 999)
+  const auto take = whole_number_in<int>(text);
+  if (!take || *take < 1 || *take > 999)
     throw Error("expected gait-demo:STYLE:TAKE with a take from 1 to 999, found '" +
                 std::string(name) + "'");
-  return take;
+  return *take;
 }
 
 // Whole cycles, the last contact left out: it is the first of the next time round.

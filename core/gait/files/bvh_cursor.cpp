@@ -1,8 +1,9 @@
 #include "gait/files/bvh_cursor.h"
 
 #include <algorithm>
-#include <charconv>
 #include <cmath>
+
+#include "gait/numbers.h"
 
 namespace gait {
 namespace {
@@ -124,15 +125,9 @@ double BvhCursor::number(std::string_view what) {
   const char* begin = text_.data() + position_;
   const char* const end = text_.data() + text_.size();
   if (begin != end && *begin == '+' && begin + 1 != end && begin[1] != '-') ++begin;
-  double value = 0;
-  const auto [stop, error] = std::from_chars(begin, end, value);
-  const bool whole = stop == end || is_space(*stop) || is_brace(*stop);
-  if (error == std::errc::result_out_of_range && whole)  // too small for a double, or too large
-    value = std::string_view(begin, stop).find("e-") != std::string_view::npos ||
-                    std::string_view(begin, stop).find("E-") != std::string_view::npos
-                ? 0
-                : INFINITY;
-  else if (error != std::errc{} || !whole)
+  const auto [value, length] = leading_number({begin, end});
+  const char* const stop = begin + length;
+  if (length == 0 || (stop != end && !is_space(*stop) && !is_brace(*stop)))
     fail("expected a number (" + std::string(what) + "), found " + found(peek()));
   if (!(std::abs(value) <= kLargestNumber))
     fail("expected a finite number below 1e9 (" + std::string(what) + "), found " + found(peek()));
@@ -142,13 +137,12 @@ double BvhCursor::number(std::string_view what) {
 
 long long BvhCursor::count(std::string_view what, long long least, long long most) {
   const std::string_view next = peek();
-  long long value = 0;
-  const auto [stop, error] = std::from_chars(next.data(), next.data() + next.size(), value);
-  if (error != std::errc{} || stop != next.data() + next.size() || value < least || value > most)
+  const auto value = whole_number_in<long long>(next);
+  if (!value || *value < least || *value > most)
     fail("expected " + std::string(what) + ", a whole number from " + std::to_string(least) +
          " to " + std::to_string(most) + ", found " + found(next));
   position_ += next.size();
-  return value;
+  return *value;
 }
 
 std::string BvhCursor::here(std::string_view message) const {

@@ -2,13 +2,13 @@
 
 #include <algorithm>
 #include <array>
-#include <charconv>
 #include <cmath>
 #include <cstdint>
 #include <fstream>
 #include <optional>
 
 #include "gait/error.h"
+#include "gait/numbers.h"
 
 namespace gait {
 namespace {
@@ -34,14 +34,6 @@ std::string_view take_field(std::string_view& line) {
   return field;
 }
 
-template <typename Number>
-std::optional<Number> number_in(std::string_view text) {
-  Number value{};
-  const auto [stop, error] = std::from_chars(text.data(), text.data() + text.size(), value);
-  if (error != std::errc{} || stop != text.data() + text.size()) return std::nullopt;
-  return value;
-}
-
 class LineReader {
  public:
   LineReader(const std::string& name, int number) : name_(name), number_(number) {}
@@ -53,7 +45,8 @@ class LineReader {
     const std::string_view end = take_field(line);
     if (line.empty()) fail("'start end label'", whole);
 
-    const bool ticks = !tab && number_in<std::int64_t>(start) && number_in<std::int64_t>(end);
+    const bool ticks =
+        !tab && whole_number_in<std::int64_t>(start) && whole_number_in<std::int64_t>(end);
     const LabelForm here = ticks ? LabelForm::htk : LabelForm::audacity;
     if (form && *form != here)
       fail(*form == LabelForm::htk ? "whole numbers of 100 ns as in the lines before (HTK)"
@@ -74,11 +67,11 @@ class LineReader {
   double time(std::string_view text, LabelForm form) const {
     double seconds = 0;
     if (form == LabelForm::htk) {
-      seconds = static_cast<double>(*number_in<std::int64_t>(text)) / kTicksPerSecond;
+      seconds = static_cast<double>(*whole_number_in<std::int64_t>(text)) / kTicksPerSecond;
     } else {
-      const std::optional<double> value = number_in<double>(text);
-      if (!value) fail("a time in seconds", text);
-      seconds = *value;
+      const LeadingNumber number = leading_number(text);
+      if (text.empty() || number.length != text.size()) fail("a time in seconds", text);
+      seconds = number.value;
     }
     if (!(seconds >= 0 && seconds <= kLongestTime)) fail("a finite time from 0 on", text);
     return seconds;

@@ -75,7 +75,7 @@ class Selection {
 
   void report(double share, const char* what) const {
     const HmmOptions& hmm = options_.learning.hmm;
-    if (hmm.cancel.stop_requested()) throw Error("cancelled");
+    if (hmm.cancel.requested()) throw Error("cancelled");
     if (hmm.progress) hmm.progress(share, what);
   }
 
@@ -138,7 +138,7 @@ class Selection {
     std::mutex adding;
     in_parallel(
         static_cast<int>(choices.size()) * folds, options_.learning.hmm.threads, [&](int job) {
-          if (options_.learning.hmm.cancel.stop_requested()) throw Error("cancelled");
+          if (options_.learning.hmm.cancel.requested()) throw Error("cancelled");
           const std::size_t choice = job / folds;
           const Held held = play(choices[choice], job % folds);
           const std::scoped_lock lock(adding);

@@ -57,7 +57,7 @@ class Training {
 
  private:
   void report(int done, const char* what) const {
-    if (options_.cancel.stop_requested()) throw Error("cancelled");
+    if (options_.cancel.requested()) throw Error("cancelled");
     if (options_.progress)
       options_.progress(
           static_cast<double>(done) / (options_.hard_iterations + options_.soft_iterations), what);

@@ -6,10 +6,10 @@
 #pragma once
 
 #include <functional>
-#include <stop_token>
 #include <string>
 #include <vector>
 
+#include "gait/cancel.h"
 #include "gait/learn/state_statistics.h"
 
 namespace gait {
@@ -23,7 +23,7 @@ struct HmmOptions {
   int threads = 0;             // 0: as many as the machine has; the result is the same
   // Called from the calling thread with the share done, 0..1, and what is being done.
   std::function<void(double, const std::string&)> progress;
-  std::stop_token cancel;  // training then throws Error("cancelled")
+  Cancel cancel;  // training then throws Error("cancelled")
 };
 
 struct TrainedStates {

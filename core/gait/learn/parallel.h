@@ -6,8 +6,9 @@
 #include <atomic>
 #include <exception>
 #include <mutex>
-#include <thread>
 #include <vector>
+
+#include "gait/joining_thread.h"
 
 namespace gait {
 
@@ -29,7 +30,7 @@ void in_parallel(int count, int threads, Work work) {
   std::exception_ptr failure;
   std::mutex failing;
   {
-    std::vector<std::jthread> team;
+    std::vector<JoiningThread> team;
     for (int t = 0; t < threads; ++t)
       team.emplace_back([&] {
         for (int i = next++; i < count; i = next++) try {

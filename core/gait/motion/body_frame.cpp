@@ -1,7 +1,6 @@
 #include "gait/motion/body_frame.h"
 
 #include <array>
-#include <charconv>
 #include <cmath>
 #include <numbers>
 #include <span>
@@ -10,6 +9,7 @@
 #include "gait/error.h"
 #include "gait/motion/kinematics.h"
 #include "gait/motion/rotation.h"
+#include "gait/numbers.h"
 
 namespace gait {
 namespace {
@@ -167,10 +167,8 @@ void guess_unit(const Clip& clip, double leg, BodyFrame& frame) {
 double metres_per_unit_named(std::string_view unit) {
   for (const Unit& known : kUnits)
     if (known.name == unit) return known.metres;
-  double metres = 0;
-  const auto [stop, error] = std::from_chars(unit.data(), unit.data() + unit.size(), metres);
-  if (error == std::errc{} && stop == unit.data() + unit.size() && metres >= 1e-6 && metres <= 1e6)
-    return metres;
+  const auto metres = number_in(unit);
+  if (metres && *metres >= 1e-6 && *metres <= 1e6) return *metres;
   throw Error(
       "expected a unit (m, cm, mm, dm, in, ft) or metres per unit as a number above zero, "
       "found '" +

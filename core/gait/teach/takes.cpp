@@ -118,7 +118,7 @@ Played play_held_out(const LearningTask& task, const LearningOptions& options) {
   for (std::size_t i = 0; i < fold_of.size(); ++i)
     fold_of[i] = dealt[task.sequences[i].segments[0].label]++ % folds;
   for (int fold = 0; fold < folds; ++fold) {
-    if (options.hmm.cancel.stop_requested()) throw Error("cancelled");
+    if (options.hmm.cancel.requested()) throw Error("cancelled");
     LearningTask rest = task;
     rest.sequences.clear();
     std::map<int, int> left;

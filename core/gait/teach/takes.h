@@ -9,6 +9,7 @@
 #include <string>
 #include <vector>
 
+#include "gait/cancel.h"
 #include "gait/judge/model_selection.h"
 
 namespace gait {
@@ -23,7 +24,7 @@ struct TakeOptions {
   double frame_rate = 30;
   int threads = 0;  // as many as the machine has
   std::function<void(double share, const std::string& what)> progress;
-  std::stop_token cancel;
+  Cancel cancel;
 };
 
 // How a model does on takes that it has not seen, each left out with others of its fold.

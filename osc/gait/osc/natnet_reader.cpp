@@ -1,9 +1,9 @@
 // NatNetThree2OSC (github.com/tecartlab/app_NatNetThree2OSC, 6.0 to 9.1), from OptiTrack Motive:
 // skeletons in its four modes, right-handed, Y up, metres. Rigid bodies and markers are passed
 // over.
-#include <charconv>
 
 #include "gait/motion/humanoid.h"
+#include "gait/numbers.h"
 #include "gait/osc/mocap_reader.h"
 
 namespace gait::osc {
@@ -132,16 +132,13 @@ Reading read_natnet(const OscMessage& message, const Arrival& arrival, BoneNumbe
     path.remove_prefix(10);
     const Path parts = parts_of(path);
     if (parts.kind != "bone" || parts.what.empty()) return Reading::unknown;
-    int number = -1;
-    const char* end = parts.number.data() + parts.number.size();
-    if (std::from_chars(parts.number.data(), end, number).ptr != end) return Reading::faulty;
+    const auto number = whole_number_in<int>(parts.number);
+    if (!number) return Reading::faulty;
     std::uint32_t skeleton = key_of(parts.skeleton);
     // Skeletons are numbered or named; names told before came with the same word.
-    int as_number = 0;
-    const char* last = parts.skeleton.data() + parts.skeleton.size();
-    if (std::from_chars(parts.skeleton.data(), last, as_number).ptr == last && as_number >= 0)
-      skeleton = static_cast<std::uint32_t>(as_number);
-    return bone(message, 0, parts.what, skeleton, number, arrival, numbers, sink);
+    if (const auto as_number = whole_number_in<int>(parts.skeleton); as_number && *as_number >= 0)
+      skeleton = static_cast<std::uint32_t>(*as_number);
+    return bone(message, 0, parts.what, skeleton, *number, arrival, numbers, sink);
   }
   return Reading::unknown;
 }

@@ -6,7 +6,7 @@ namespace gait {
 
 TableMaker::TableMaker(std::shared_ptr<const Model> model)
     : model_(std::move(model)), missing_(model_->input.values, false) {
-  worker_ = std::jthread([this] { work(); });
+  worker_ = JoiningThread([this] { work(); });
 }
 
 TableMaker::~TableMaker() {

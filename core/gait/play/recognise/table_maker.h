@@ -6,9 +6,9 @@
 
 #include <atomic>
 #include <memory>
-#include <thread>
 #include <vector>
 
+#include "gait/joining_thread.h"
 #include "gait/play/recognise/state_tables.h"
 
 namespace gait {
@@ -42,7 +42,7 @@ class TableMaker {
   std::vector<bool> missing_;
   std::shared_ptr<const StateTables> tables_;  // whose it is, state_ says
   std::atomic<int> state_{idle};
-  std::jthread worker_;
+  JoiningThread worker_;
 };
 
 }  // namespace gait
