@@ -80,7 +80,12 @@ void Patch::dsp() {
 
 std::string Patch::whole() const { return text_ + cords_; }
 
-bool has_pd() { return std::string(GAIT_PD_PROGRAM).find("NOTFOUND") == std::string::npos; }
+std::string pd_program() {
+  const char* const other = std::getenv("GAIT_PD_PROGRAM");
+  return other != nullptr && *other != '\0' ? other : GAIT_PD_PROGRAM;
+}
+
+bool has_pd() { return pd_program().find("NOTFOUND") == std::string::npos; }
 
 bool can_watch() { return std::string(GAIT_PD_PRELOAD).empty(); }
 
@@ -107,7 +112,7 @@ PdRun run_pd(const Patch& patch, const RunOptions& options) {
   const std::string command =
       "cd '" + run.folder + "' && " + home + state + std::string(GAIT_PD_PRELOAD) +
       (options.watched ? "LD_PRELOAD=" GAIT_ALLOCATION_WATCH : "") + " timeout " +
-      std::to_string(options.at_most) + " " GAIT_PD_PROGRAM +
+      std::to_string(options.at_most) + " " + pd_program() +
       " -nogui -noprefs -noaudio -nomidi -r 48000 -stderr " +
       (options.meanwhile ? "-sleepgrain 0.5 " : "-batch ") + library + " -open test.pd 2>&1";
   FILE* pipe = popen(command.c_str(), "r");
@@ -173,7 +178,7 @@ int PdRun::process() const {
     if (fs::read_symlink(process.path() / "cwd", unreadable) != folder) continue;
     std::ifstream status(process.path() / "status");
     std::string line;
-    if (std::getline(status, line) && line == "Name:\tpd")
+    if (std::getline(status, line) && line == "Name:\t" + fs::path(pd_program()).filename().string())
       return std::stoi(process.path().filename());
   }
   return 0;

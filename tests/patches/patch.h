@@ -67,7 +67,9 @@ bool can_watch();
 // How many there were; -1 when nothing was watched.
 int watched_allocations(const PdRun& run);
 
-// Where there is a pd to run, with the library built.
+// The Pd that patches are run in: what the environment variable GAIT_PD_PROGRAM names, or the `pd`
+// that was found when the tests were configured.
+std::string pd_program();
 bool has_pd();
 struct RunOptions {
   std::string home{};    // Pd sees only what is installed there; empty: the library just built
