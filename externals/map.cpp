@@ -107,9 +107,7 @@ class Map final : public ModelUser {
   // All that a model needs here and that takes long to make.
   struct Playing {
     explicit Playing(const SharedModel& model)
-        : map(model->model, model->states),
-          message(*model->model),
-          row(static_cast<std::size_t>(message.longest())) {}
+        : map(*model), message(*model->model), row(static_cast<std::size_t>(message.longest())) {}
     ObservationMap map;
     ObservationMessage message;
     std::vector<float> row;

@@ -197,9 +197,9 @@ class ModelBox final : public ModelUser {
       info_.add(learnt.frame_rate);
     } else if (what == "engines") {
       if (!learnt.labels.empty()) info_.add("viterbi").add("map");
-      if (model()->steps) info_.add("synth");
-      if (model()->cycles) info_.add("style");
-      if (model()->speeds) info_.add("speed");
+      if (model()->has_steps()) info_.add("synth");
+      if (model()->has_cycles()) info_.add("style");
+      if (model()->has_speeds()) info_.add("speed");
     }
     info_.send(what.c_str());
   }

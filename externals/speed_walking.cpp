@@ -14,11 +14,11 @@ class SpeedWalking final : public CycleWalking {
  public:
   std::function<std::shared_ptr<void>(const SharedModel&)> prepare() const override {
     return [](const SharedModel& model) -> std::shared_ptr<void> {
-      if (!model->speeds)
+      if (!model->has_speeds())
         throw Error("model " + model->model->name +
                     " has no walks over speed, so [gait.pca speed] cannot walk in it; train it "
                     "with clips of several speeds");
-      return std::make_shared<SpeedWalker>(model->model, model->speeds);
+      return std::make_shared<SpeedWalker>(model->speeds());
     };
   }
 

@@ -16,7 +16,7 @@ class StyleWalking final : public CycleWalking {
  public:
   std::function<std::shared_ptr<void>(const SharedModel&)> prepare() const override {
     return [now = settings_](const SharedModel& model) -> std::shared_ptr<void> {
-      if (!model->cycles)
+      if (!model->has_cycles())
         throw Error("model " + model->model->name +
                     " has no space of styles, so [gait.pca style] cannot walk in it; train it from "
                     "walks whose styles are named");
@@ -104,7 +104,7 @@ class StyleWalking final : public CycleWalking {
 
   struct Walking {
     Walking(const Settings& told, const SharedModel& in)
-        : settings(told), model(in), walker(in->model, told.seed, in->cycles) {
+        : settings(told), model(in), walker(*in, told.seed) {
       const Eigen::VectorXd& variances = in->model->style_space->space.variances;
       for (int i = 0; i < walker.components(); ++i)
         per_deviation.push_back(variances[i] > 0 ? static_cast<float>(1 / std::sqrt(variances[i]))

@@ -153,11 +153,11 @@ class Synth final : public ModelUser {
     SynthesiserSettings settings;
     if (synthesiser_) settings = {synthesiser_->past(), synthesiser_->future()};
     return [settings](const SharedModel& shared) {
-      if (!shared->steps)
+      if (!shared->has_steps())
         throw Error("model " + shared->model->name +
                     " was learnt without trajectory statistics, so [gait.synth] cannot walk in "
                     "it; train it again");
-      return std::make_shared<Synthesiser>(shared->model, settings, shared->steps);
+      return std::make_shared<Synthesiser>(*shared, settings);
     };
   }
   void take(const SharedModel& shared, const SharedModel&) override {

@@ -109,7 +109,7 @@ class Viterbi final : public ModelUser {
   // All that a model needs here and that takes long to make.
   struct Playing {
     Playing(const PlayModel& model, const RecogniserSettings& settings)
-        : live(model.model, settings, model.states),
+        : live(model, settings),
           recognising(settings),
           observation(*model.model),
           in(static_cast<std::size_t>(model.model->input.values), 0.0f),

@@ -28,17 +28,6 @@ std::filesystem::path library_folder() {
 
 }  // namespace
 
-SharedModel make_play_model(Model model) {
-  auto made = std::make_shared<PlayModel>();
-  made->model = std::make_shared<const Model>(std::move(model));
-  const Model& learnt = *made->model;
-  made->states = make_state_tables(learnt);
-  if (learnt.input_mean.size() > 0) made->steps = make_step_tables(learnt);
-  if (learnt.style_space) made->cycles = make_cycle_tables(learnt.style_space->space, *learnt.body);
-  if (!learnt.speed_spaces.empty()) made->speeds = make_speed_tables(learnt);
-  return made;
-}
-
 SharedModel load_model(const std::string& path) { return make_play_model(read_model(path)); }
 
 SharedModel load_demo_model() {

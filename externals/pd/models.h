@@ -6,31 +6,15 @@
 #include <memory>
 #include <string>
 
-#include "gait/model/model.h"
-#include "gait/play/cycles/cycle_pose.h"
-#include "gait/play/cycles/speed_tables.h"
-#include "gait/play/recognise/state_tables.h"
-#include "gait/play/synthesise/step_tables.h"
+#include "gait/play/play_model.h"
 #include "pd/outlet.h"
 #include "pd/perf.h"
 #include "pd/report.h"
 
 namespace gait::pd {
 
-// A model with the tables that playing needs, made once and shared. Those of walkers that the model
-// cannot serve are null.
-struct PlayModel {
-  std::shared_ptr<const Model> model;
-  std::shared_ptr<const StateTables> states;
-  std::shared_ptr<const StepTables> steps;
-  std::shared_ptr<const CycleTables> cycles;
-  std::shared_ptr<const SpeedTables> speeds;
-};
-
 using SharedModel = std::shared_ptr<const PlayModel>;
 
-// Throws Error when the model cannot be played. Takes some milliseconds.
-SharedModel make_play_model(Model model);
 // The model in a file; for the built-in name without a file, the one that lies beside the library,
 // or else one learnt on the spot.
 SharedModel load_model(const std::string& path);

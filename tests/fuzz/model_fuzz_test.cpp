@@ -139,7 +139,7 @@ int play(const std::shared_ptr<const Model>& model) {
     }
   });
   if_it_can([&] {
-    SpeedWalker walker(model);
+    SpeedWalker walker(make_speed_tables(*model));
     walker.set_speed(1.2f);
     for (int i = 0; i < 60; ++i) {
       walker.advance(1.0 / 30);

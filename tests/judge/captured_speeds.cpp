@@ -35,7 +35,7 @@ const std::shared_ptr<Model>& whole_model() {
 
 SpeedWalker walker() {
   static const auto tables = make_speed_tables(*whole_model());
-  return SpeedWalker(whole_model(), tables);
+  return SpeedWalker(tables);
 }
 
 }  // namespace gait::testing

@@ -147,7 +147,7 @@ TEST(SpeedRealData, a_speed_left_out_is_foretold) {
       nearest += mean_error(near.values, left_out.values);
       mean += mean_error(sum / static_cast<double>(rest.size()), left_out.values);
       ++count;
-      SpeedWalker walking(model, tables);
+      SpeedWalker walking(tables);
       walking.set_speed(static_cast<float>(left_out.speed));
       walking.settle();
       walking.advance(1e-3);

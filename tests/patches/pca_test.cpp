@@ -84,7 +84,7 @@ TEST(PcaObject, walks_at_a_speed_as_the_core_does) {
   const PdRun run = run_pd(patch);
   ASSERT_EQ(run.exit_code, 0) << run.log;
   EXPECT_EQ(run.errors(), std::vector<std::string>()) << run.log;
-  SpeedWalker walker(demo());
+  SpeedWalker walker(make_speed_tables(*demo()));
   walker.set_speed(1.2f);
   walker.settle();
   walker.set_speed(1.6f);

@@ -126,7 +126,7 @@ Chart frequency_figure(const std::shared_ptr<const Model>& model) {
   for (const SpeedSpace& subject : speeds_of(*model)) most = std::max(most, highest(subject));
   panel.series.push_back({"Inman's law, 0.743 V^0.5", quiet_ink, Stroke::dashed, Marker::none, 2.5,
                           law_points(0, most, [](double v) { return 0.743 * std::sqrt(v); })});
-  SpeedWalker walker(model);
+  SpeedWalker walker(make_speed_tables(*model));
   walker.set_law(SpeedLaw::feet);
   std::size_t line = 0;
   for (const SpeedSpace& subject : model->speed_spaces) {

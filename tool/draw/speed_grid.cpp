@@ -129,7 +129,7 @@ void draw(Canvas& canvas, const std::vector<Row>& rows, const Page& page) {
 
 void write_speed_grid(const std::shared_ptr<const Model>& model, const SpeedGrid& grid,
                       const std::string& path, bool svg) {
-  const auto tables = make_speed_tables(*model);
+  const PlayModel played(model);
   const JointRoles roles = body_roles(*model->body);
   std::vector<double> legs = grid.leg_lengths;
   if (legs.empty()) legs.push_back(0);
@@ -142,7 +142,7 @@ void write_speed_grid(const std::shared_ptr<const Model>& model, const SpeedGrid
       plan.from = plan.to = speed;
       plan.leg_length = leg;
       plan.seconds = 4;  // two contacts at the slowest
-      const SpeedWalk walk = speed_walk(model, plan, tables);
+      const SpeedWalk walk = speed_walk(played, plan);
       remarks.insert(walk.remarks.begin(), walk.remarks.end());
       row.leg_length = walk.leg_length;
       row.cells.push_back(cell_of(walk, roles, grid.camera_degrees));

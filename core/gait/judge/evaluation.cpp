@@ -47,10 +47,7 @@ class Evaluator {
  public:
   Evaluator(std::shared_ptr<const Model> model, const PlayerSettings& settings,
             const RoleTable& roles)
-      : model_(std::move(model)),
-        settings_(settings),
-        role_table_(roles),
-        tables_(make_state_tables(*model_)) {
+      : model_(std::move(model)), settings_(settings), role_table_(roles), played_(model_) {
     if (!model_->body)
       throw Error("model " + model_->name + ": expected a model of a body to evaluate on clips");
     const Body& body = *model_->body;
@@ -103,7 +100,7 @@ class Evaluator {
     PlayerSettings settings = settings_;
     if (strength) settings.strength = strength;
     if (!smooth) settings.past = 0, settings.future = 0, settings.current = 1;
-    return play_sequence(model_, settings, truth, tables_);
+    return play_sequence(played_, settings, truth);
   }
 
   void compare(const Sequence& truth, EvaluatedClip& result) {
@@ -190,7 +187,7 @@ class Evaluator {
   std::shared_ptr<const Model> model_;
   PlayerSettings settings_;
   RoleTable role_table_;
-  std::shared_ptr<const StateTables> tables_;
+  PlayModel played_;
   Evaluation evaluation_;
   CalibrationError calibration_;
 };

@@ -111,10 +111,10 @@ class Selection {
       if (state.count < 1) return held;  // a state that only this fold has passed through
     set_states(*model, learnt.table, rest, learnt.states.stay, learnt.states.target, regularisation,
                options_.learning.placement);
-    const auto tables = make_state_tables(*model);
+    const PlayModel played_model(model);
     for (const int index : folds_[fold]) {
       const Sequence& sequence = task_.sequences[learnt.observed.sequences[index].source];
-      PlayedSequence played = play_sequence(model, {}, sequence, tables);
+      PlayedSequence played = play_sequence(played_model, {}, sequence);
       double error = 0, right = 0;
       for (int frame = played.begin; frame < played.end; ++frame) {
         error +=

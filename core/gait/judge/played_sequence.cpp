@@ -4,12 +4,13 @@
 
 namespace gait {
 
-PlayedSequence play_sequence(std::shared_ptr<const Model> model, const PlayerSettings& settings,
-                             const Sequence& sequence, std::shared_ptr<const StateTables> tables) {
+PlayedSequence play_sequence(const PlayModel& played_model, const PlayerSettings& settings,
+                             const Sequence& sequence) {
+  const Model& model = *played_model.model;
   const int frames = static_cast<int>(sequence.inputs.cols());
   PlayedSequence played;
-  played.outputs.resize(model->output.values, frames);
-  played.style_posteriors.resize(static_cast<Eigen::Index>(model->styles.size()), frames);
+  played.outputs.resize(model.output.values, frames);
+  played.style_posteriors.resize(static_cast<Eigen::Index>(model.styles.size()), frames);
   played.true_label.assign(frames, -1);
   for (const Segment& segment : sequence.segments)
     for (int frame = segment.begin; frame < segment.end; ++frame)
@@ -19,7 +20,7 @@ PlayedSequence play_sequence(std::shared_ptr<const Model> model, const PlayerSet
     played.end = sequence.segments.back().end;
   }
 
-  Player player(model, settings, std::move(tables));
+  Player player(played_model, settings);
   const Eigen::MatrixXf inputs = sequence.inputs.cast<float>();
   const auto collect = [&] {
     for (int i = 0; i < player.available(); ++i) {

@@ -17,10 +17,8 @@ struct PlayedSequence {
   std::vector<int> true_label;       // per frame, -1 outside the segments
 };
 
-// `tables`: the model's, if they were made already.
-PlayedSequence play_sequence(std::shared_ptr<const Model> model, const PlayerSettings& settings,
-                             const Sequence& sequence,
-                             std::shared_ptr<const StateTables> tables = nullptr);
+PlayedSequence play_sequence(const PlayModel& played_model, const PlayerSettings& settings,
+                             const Sequence& sequence);
 
 // Distance of two output vectors per stream at one frame: the geodesic angle (radians) for
 // rotations, the mean absolute difference for plain values.

@@ -120,9 +120,9 @@ Clip styled_walk(const std::shared_ptr<const Model>& model, const StyledWalkPlan
   return recorder.clip("walk");
 }
 
-SpeedWalk speed_walk(const std::shared_ptr<const Model>& model, const SpeedWalkPlan& plan,
-                     std::shared_ptr<const SpeedTables> tables) {
-  SpeedWalker walker(model, std::move(tables));
+SpeedWalk speed_walk(const PlayModel& played, const SpeedWalkPlan& plan) {
+  const std::shared_ptr<const Model>& model = played.model;
+  SpeedWalker walker(played.speeds());
   if (!(plan.seconds > 0) || !std::isfinite(plan.from) || !std::isfinite(plan.to))
     throw Error("expected a plan of finite speeds and some seconds for the speed walker");
   if (!plan.subject.empty() && walker.set_subject(plan.subject) == Taken::refused) {

@@ -13,6 +13,7 @@
 #include "gait/model/model.h"
 #include "gait/motion/clip.h"
 #include "gait/play/cycles/speed_walker.h"
+#include "gait/play/play_model.h"
 
 namespace gait {
 
@@ -71,10 +72,8 @@ struct SpeedWalk {
   std::vector<std::string> remarks;  // what was clamped
 };
 
-// A walk over speed (G04 §4); one that does not begin standing is under way. `tables`: the model's,
-// when they were made already. Throws Error when the model has no walks over speed, or no such
-// subject (listing those it has).
-SpeedWalk speed_walk(const std::shared_ptr<const Model>& model, const SpeedWalkPlan& plan,
-                     std::shared_ptr<const SpeedTables> tables = nullptr);
+// A walk over speed (G04 §4); one that does not begin standing is under way. Throws Error when the
+// model has no walks over speed, or no such subject (listing those it has).
+SpeedWalk speed_walk(const PlayModel& played, const SpeedWalkPlan& plan);
 
 }  // namespace gait

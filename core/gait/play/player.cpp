@@ -19,9 +19,8 @@ Trajectory trajectory_for(const Model& model, const PlayerSettings& settings) {
 
 }  // namespace
 
-Player::Player(std::shared_ptr<const Model> model, const PlayerSettings& settings,
-               std::shared_ptr<const StateTables> tables)
-    : recogniser_(std::move(model), settings, std::move(tables)),
+Player::Player(const PlayModel& played_model, const PlayerSettings& settings)
+    : recogniser_(played_model, settings),
       map_(recogniser_.model(), recogniser_.tables()),
       trajectory_(trajectory_for(recogniser_.model(), settings)) {
   const Model& played = recogniser_.model();

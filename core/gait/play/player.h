@@ -23,10 +23,8 @@ struct PlayerSettings : RecogniserSettings {
 
 class Player {
  public:
-  // `tables`: the model's, if somebody made them already; several players may share them. Throws
-  // Error when the model cannot be played (see make_state_tables).
-  Player(std::shared_ptr<const Model> model, const PlayerSettings& settings = {},
-         std::shared_ptr<const StateTables> tables = nullptr);
+  // Throws Error when the model cannot be played (see make_state_tables).
+  explicit Player(const PlayModel& played, const PlayerSettings& settings = {});
 
   // Takes the next frame: model.input.values values, missing ones ignored; one that is not finite,
   // or absurdly far (see Recogniser), is as the frame before had it. Afterwards `available` frames

@@ -14,6 +14,7 @@
 #include "gait/motion/rotation.h"
 #include "gait/offline/walk_recorder.h"
 #include "gait/play/body/root_motion.h"
+#include "gait/play/play_model.h"
 #include "play/body/sole_height.h"
 #include "play/cycles/walks_over_speed.h"
 #include "play/forbidden_memory.h"
@@ -30,7 +31,7 @@ const std::shared_ptr<const SpeedTables>& tables() {
   return made;
 }
 
-SpeedWalker walker() { return SpeedWalker(testing::speed_model(), tables()); }
+SpeedWalker walker() { return SpeedWalker(tables()); }
 
 Pose pose_of(const SpeedWalker& walking) { return {walking.pose().begin(), walking.pose().end()}; }
 
@@ -340,7 +341,7 @@ TEST(SpeedWalker, one_subject_walks_without_a_shared_space) {
   std::erase_if(walks, [](const Walk& walk) { return walk.subject != "tall"; });
   const auto model = testing::speed_model(walks);
   ASSERT_FALSE(model->shared_speed_space);
-  SpeedWalker walking(model);
+  SpeedWalker walking(make_speed_tables(*model));
   walking.set_speed(1.3f);
   walking.settle();
   EXPECT_NEAR(travelled_speed(walking, *model), 1.3, 0.013);
@@ -348,7 +349,7 @@ TEST(SpeedWalker, one_subject_walks_without_a_shared_space) {
 
 TEST(SpeedWalker, a_model_without_speeds_says_how_to_get_some) {
   try {
-    SpeedWalker(std::make_shared<Model>());
+    PlayModel(std::make_shared<Model>()).speeds();
     FAIL() << "walked without speeds";
   } catch (const Error& error) {
     EXPECT_NE(std::string(error.what()).find("train"), std::string::npos) << error.what();

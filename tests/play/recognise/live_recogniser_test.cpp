@@ -195,7 +195,7 @@ TEST(LiveRecogniser, who_stops_has_a_phase_that_stands_and_goes_on_when_walking_
 TEST(LiveRecogniser, begins_anew_after_a_silence) {
   const auto model = few_walks_model();
   const Eigen::MatrixXf inputs = held_out_inputs();
-  LiveRecogniser used(model, {}, nullptr, 0.25), fresh(model, {}, nullptr, 0.25);
+  LiveRecogniser used(model, {}, 0.25), fresh(model, {}, 0.25);
   for (int frame = 0; frame < 50; ++frame) {
     used.stream().push(frame / 30.0, frame_of(inputs, frame));
     while (used.next()) EXPECT_EQ(used.first_of_run(), frame == 0);

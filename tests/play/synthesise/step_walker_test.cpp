@@ -253,7 +253,7 @@ TEST(StepWalker, a_change_of_style_takes_about_a_step_and_never_jumps) {
 }
 
 TEST(StepWalker, a_model_read_from_its_file_walks_the_same_to_the_bit) {
-  const auto read = std::make_shared<Model>(parse_model(model_bytes(*corpus_walks().model), "m"));
+  const auto read = std::make_shared<const Model>(parse_model(model_bytes(*corpus_walks().model), "m"));
   StepWalker walker = corpus_walker(), again(read);
   walker.set_style(2), again.set_style(2);
   expect_same_frames(walker, again, 200);
@@ -263,7 +263,7 @@ TEST(StepWalker, walks_on_when_the_model_changes) {
   const auto other = std::make_shared<Model>(*corpus_walks().model);
   for (Label& label : other->labels)
     for (State& state : label.states) state.trajectory_means *= 1.02;
-  StepWalker before = corpus_walker(), after(other);
+  StepWalker before = corpus_walker(), after(PlayModel{other});
   before.set_style(4);
   for (int i = 0; i < 50; ++i) before.advance();
   before.queue(left);

@@ -383,7 +383,7 @@ TEST(Synthesiser, lets_bad_input_pass_unnoticed) {
 }
 
 TEST(Synthesiser, lives_on_in_another_model_of_equal_sizes) {
-  const auto other_model = std::make_shared<Model>(*few_walks_model());
+  const auto other_model = std::make_shared<const Model>(*few_walks_model());
   for (const bool alone : {false, true}) {
     Synthesiser before(few_walks_model()), after(other_model);
     Frames frames;

@@ -29,7 +29,7 @@ inline std::vector<Told> told_gaussians(const std::shared_ptr<const Model>& mode
   PlayerSettings settings;
   settings.decoder = DecoderKind::forward;
   settings.future = 0;
-  Player player(model, settings, tables);
+  Player player(model, settings);
   std::vector<Told> told;
   const std::size_t values = static_cast<std::size_t>(model->output.values);
   const std::size_t modelled = model->output.modelled.size();

@@ -61,6 +61,14 @@ std::shared_ptr<const CycleTables> make_cycle_tables(const CycleSpace& space, co
   return tables;
 }
 
+std::shared_ptr<const CycleTables> make_cycle_tables(const Model& model) {
+  if (!model.style_space || !model.body)
+    throw Error("model " + model.name + ": expected a space of styles for the style walker; it " +
+                (model.styles.empty() ? "has no styles" : "was learnt without one") +
+                "; train it from walks whose styles are named");
+  return make_cycle_tables(model.style_space->space, *model.body);
+}
+
 CyclePose::CyclePose(std::shared_ptr<const CycleTables> tables) : tables_(std::move(tables)) {
   before_ = after_ = Eigen::VectorXf::Zero(tables_->means.front().size());
 }

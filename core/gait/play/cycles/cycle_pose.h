@@ -29,6 +29,8 @@ struct CycleTables {
 
 // Throws Error when the space does not fit the body.
 std::shared_ptr<const CycleTables> make_cycle_tables(const CycleSpace& space, const Body& body);
+// Of the model's space of styles. Throws Error when it has none, saying how to train one that has.
+std::shared_ptr<const CycleTables> make_cycle_tables(const Model& model);
 
 class CyclePose {
  public:

@@ -40,9 +40,8 @@ float freedom(double phase) noexcept {
 
 }  // namespace
 
-SpeedWalker::SpeedWalker(std::shared_ptr<const Model> model,
-                         std::shared_ptr<const SpeedTables> tables)
-    : tables_(tables ? std::move(tables) : make_speed_tables(*model)),
+SpeedWalker::SpeedWalker(std::shared_ptr<const SpeedTables> tables)
+    : tables_(std::move(tables)),
       reader_(*tables_),
       weights_(tables_->subjects.size(), 1.f / static_cast<float>(tables_->subjects.size())),
       wanted_weights_(weights_),

@@ -37,10 +37,8 @@ enum class Taken {
 
 class SpeedWalker {
  public:
-  // Stands as the mean of all subjects, law `feet`. `tables`: the model's, if somebody made them
-  // already; walkers may share them. Throws Error when the model has no walks over speed.
-  explicit SpeedWalker(std::shared_ptr<const Model> model,
-                       std::shared_ptr<const SpeedTables> tables = nullptr);
+  // Stands as the mean of all subjects, law `feet`.
+  explicit SpeedWalker(std::shared_ptr<const SpeedTables> tables);
 
   // m/s, 0 to 10 km/h, and less where legs are shorter than 0.73 m.
   Taken set_speed(float metres_per_second) noexcept;

@@ -17,14 +17,6 @@ constexpr float step = 0.5f;            // cycles: over which a control arrives
 constexpr float beyond_styles = 0.25f;  // of all styles' range: exaggerated durations stay within
 constexpr float beyond_range = 0.1f;    // of the observed range's ends: durations stay within
 
-const StyleSpace& style_space_of(const Model& model) {
-  if (!model.style_space || !model.body)
-    throw Error("model " + model.name + ": expected a space of styles for the style walker; it " +
-                (model.styles.empty() ? "has no styles" : "was learnt without one") +
-                "; train it from walks whose styles are named");
-  return *model.style_space;
-}
-
 std::vector<bool> can_walk(const StyleSpace& space) {
   std::vector<bool> can;
   for (const StyleCycles& style : space.styles) can.push_back(style.cycles > 0);
@@ -39,7 +31,7 @@ Eigen::VectorXf even_weights(const StyleSpace& space) {
 }
 
 Eigen::VectorXf neutral_weights(const Model& model) {
-  const StyleSpace& space = style_space_of(model);
+  const StyleSpace& space = *model.style_space;
   for (std::size_t i = 0; i < model.styles.size(); ++i)
     if ((model.styles[i] == "neutral" || model.styles[i] == "normal") && space.styles[i].cycles > 0)
       return Eigen::VectorXf::Unit(static_cast<Eigen::Index>(model.styles.size()),
@@ -51,14 +43,12 @@ double smooth(double share) noexcept { return share * share * (3 - 2 * share); }
 
 }  // namespace
 
-StyleWalker::StyleWalker(std::shared_ptr<const Model> model, std::uint64_t seed,
-                         std::shared_ptr<const CycleTables> tables)
-    : cycle_pose_(tables ? std::move(tables)
-                         : make_cycle_tables(style_space_of(*model).space, *model->body)),
-      mix_(can_walk(style_space_of(*model)), neutral_weights(*model)),
-      hinges_(*model->body),
-      draws_(style_space_of(*model).space.kept() + 1, seed) {
-  const StyleSpace& space = *model->style_space;
+StyleWalker::StyleWalker(const PlayModel& played, std::uint64_t seed)
+    : cycle_pose_(played.cycles()),
+      mix_(can_walk(*played.model->style_space), neutral_weights(*played.model)),
+      hinges_(*played.model->body),
+      draws_(played.model->style_space->space.kept() + 1, seed) {
+  const StyleSpace& space = *played.model->style_space;
   const int components = space.space.kept();
   const auto styles = static_cast<Eigen::Index>(space.styles.size());
   means_ = deviations_ = limits_ = Eigen::MatrixXf::Zero(components + 1, styles);
@@ -93,7 +83,7 @@ StyleWalker::StyleWalker(std::shared_ptr<const Model> model, std::uint64_t seed,
   pinned_.assign(components, Glide(0));
   pin_values_.assign(components, Glide(0));
   scores_ = Eigen::VectorXf::Zero(components);
-  pose_.resize(model->body->skeleton.joints.size());
+  pose_.resize(played.model->body->skeleton.joints.size());
   restart(seed);
 }
 

@@ -31,16 +31,15 @@
 #include "gait/play/cycles/cycle_draws.h"
 #include "gait/play/cycles/cycle_pose.h"
 #include "gait/play/cycles/hinge_limits.h"
+#include "gait/play/play_model.h"
 
 namespace gait {
 
 class StyleWalker {
  public:
-  // Starts neutral, at phase 0. The same seed gives the same walk. `tables`: those of the model's
-  // style space when they were made already, to share them. Throws Error when the model has no
-  // style space or no body, saying how to train one that has.
-  StyleWalker(std::shared_ptr<const Model> model, std::uint64_t seed,
-              std::shared_ptr<const CycleTables> tables = nullptr);
+  // Starts neutral, at phase 0. The same seed gives the same walk. Throws Error when the model has
+  // no style space or no body, saying how to train one that has.
+  StyleWalker(const PlayModel& played, std::uint64_t seed);
 
   // One weight per style of the model, not negative, normalised. See StyleMix::set.
   bool set_weights(std::span<const float> weights) noexcept;

@@ -13,10 +13,9 @@ bool is_strength(float strength) noexcept { return std::abs(strength) <= stronge
 
 }  // namespace
 
-ObservationMap::ObservationMap(std::shared_ptr<const Model> model,
-                               std::shared_ptr<const StateTables> tables)
-    : model_(std::move(model)),
-      tables_(tables ? std::move(tables) : make_state_tables(*model_)),
+ObservationMap::ObservationMap(const PlayModel& played)
+    : model_(played.model),
+      tables_(played.states()),
       map_(*model_, tables_),
       maker_(model_),
       scaling_mean_(model_->input_scaling.mean.cast<float>()),

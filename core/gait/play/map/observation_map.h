@@ -12,16 +12,15 @@
 
 #include "gait/model/model.h"
 #include "gait/play/map/covariance_map.h"
+#include "gait/play/play_model.h"
 #include "gait/play/recognise/table_maker.h"
 
 namespace gait {
 
 class ObservationMap {
  public:
-  // `tables`: the model's, if somebody made them already. Throws Error when the model cannot be
-  // played.
-  explicit ObservationMap(std::shared_ptr<const Model> model,
-                          std::shared_ptr<const StateTables> tables = nullptr);
+  // Throws Error when the model cannot be played.
+  explicit ObservationMap(const PlayModel& played);
 
   // Maps one frame. `states`: of the model, weights 0 or more and not all 0; `missing`: input
   // values by index; `observation`: its leading entries that are real, in the streams' own units.

@@ -14,14 +14,14 @@ float unlikeness(float distance, float usual) noexcept {
   return 1 / (1 + ratio * ratio * ratio);
 }
 
-LiveRecogniser::LiveRecogniser(std::shared_ptr<const Model> model,
-                               const RecogniserSettings& settings,
-                               std::shared_ptr<const StateTables> tables, double longest_gap)
-    : stream_(model, longest_gap),
-      recogniser_(model, settings, std::move(tables)),
-      standing_(*model),
-      choice_(model->frame_rate),
-      forget_(static_cast<float>(1 - std::exp(-1 / (strange_seconds * model->frame_rate)))) {}
+LiveRecogniser::LiveRecogniser(const PlayModel& played, const RecogniserSettings& settings,
+                               double longest_gap)
+    : stream_(played.model, longest_gap),
+      recogniser_(played, settings),
+      standing_(*played.model),
+      choice_(played.model->frame_rate),
+      forget_(static_cast<float>(1 - std::exp(-1 / (strange_seconds * played.model->frame_rate)))) {
+}
 
 void LiveRecogniser::begin_anew() noexcept {
   recogniser_.reset();

@@ -26,9 +26,7 @@ class LiveRecogniser {
  public:
   // `longest_gap`: seconds of silence after which a motion begins anew. Throws Error as Recogniser
   // and InputStream do.
-  explicit LiveRecogniser(std::shared_ptr<const Model> model,
-                          const RecogniserSettings& settings = {},
-                          std::shared_ptr<const StateTables> tables = nullptr,
+  explicit LiveRecogniser(const PlayModel& played, const RecogniserSettings& settings = {},
                           double longest_gap = 1.0);
 
   // Push frames here; then call next() until it says false. (Streams go missing below.)

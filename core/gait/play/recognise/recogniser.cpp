@@ -35,10 +35,9 @@ PhaseClockSettings Recogniser::clock_settings_of(const Model& model, const Phase
   return settings;
 }
 
-Recogniser::Recogniser(std::shared_ptr<const Model> model, const RecogniserSettings& settings,
-                       std::shared_ptr<const StateTables> tables)
-    : model_(std::move(model)),
-      tables_(tables ? std::move(tables) : make_state_tables(*model_)),
+Recogniser::Recogniser(const PlayModel& played, const RecogniserSettings& settings)
+    : model_(played.model),
+      tables_(played.states()),
       current_(tables_),
       observer_(model_->input, model_->input_scaling),
       emissions_(tables_, model_->input),

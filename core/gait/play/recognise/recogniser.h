@@ -13,6 +13,7 @@
 
 #include "gait/model/model.h"
 #include "gait/motion/observation.h"
+#include "gait/play/play_model.h"
 #include "gait/play/recognise/decoder.h"
 #include "gait/play/recognise/emissions.h"
 #include "gait/play/recognise/phase_clock.h"
@@ -43,10 +44,8 @@ struct Decision {
 
 class Recogniser {
  public:
-  // `tables`: the model's, if somebody made them already; several users may share them. Throws
-  // Error when the model cannot be played (see make_state_tables).
-  Recogniser(std::shared_ptr<const Model> model, const RecogniserSettings& settings = {},
-             std::shared_ptr<const StateTables> tables = nullptr);
+  // Throws Error when the model cannot be played (see make_state_tables).
+  explicit Recogniser(const PlayModel& played, const RecogniserSettings& settings = {});
 
   // Takes the next frame: model.input.values values, missing ones ignored; one that is not finite,
   // or over 10000 deviations from its mean (no rotation is), is as the frame before had it. True

@@ -35,10 +35,9 @@ int frames_in(double seconds, double frame_rate) {
 
 }  // namespace
 
-StepWalker::StepWalker(std::shared_ptr<const Model> model, const StepWalkerSettings& settings,
-                       std::shared_ptr<const StepTables> tables)
-    : model_(std::move(model)),
-      tables_(tables ? std::move(tables) : make_step_tables(*model_)),
+StepWalker::StepWalker(const PlayModel& played, const StepWalkerSettings& settings)
+    : model_(played.model),
+      tables_(played.steps()),
       period_(static_cast<float>(1 / model_->frame_rate)),
       queue_(tables_->successors),
       durations_(tables_->durations),

@@ -25,6 +25,7 @@
 
 #include "gait/model/model.h"
 #include "gait/play/change/style_mix.h"
+#include "gait/play/play_model.h"
 #include "gait/play/synthesise/label_durations.h"
 #include "gait/play/synthesise/label_queue.h"
 #include "gait/play/synthesise/step_gaussian.h"
@@ -48,11 +49,9 @@ struct StepPlace {
 
 class StepWalker {
  public:
-  // Starts in the neutral style, with the first label or the first one queued. `tables`: the
-  // model's when they were made already, to share them. Throws Error when the model was learnt
-  // without trajectory statistics.
-  StepWalker(std::shared_ptr<const Model> model, const StepWalkerSettings& settings = {},
-             std::shared_ptr<const StepTables> tables = nullptr);
+  // Starts in the neutral style, with the first label or the first one queued. Throws Error when
+  // the model was learnt without trajectory statistics.
+  explicit StepWalker(const PlayModel& played, const StepWalkerSettings& settings = {});
 
   // The label comes after those queued already, led up to by those that must lie between. See
   // LabelQueue::push.

@@ -46,10 +46,9 @@ bool all_finite(std::span<const float> values) noexcept {
 
 }  // namespace
 
-Synthesiser::Synthesiser(std::shared_ptr<const Model> model, const SynthesiserSettings& settings,
-                         std::shared_ptr<const StepTables> tables)
-    : model_(std::move(model)),
-      walker_(model_, {}, std::move(tables)),
+Synthesiser::Synthesiser(const PlayModel& played, const SynthesiserSettings& settings)
+    : model_(played.model),
+      walker_(played),
       trajectory_(model_->output.statics(), 0, 1, 0),
       controls_(all_streams(*model_)),
       hand_over_(all_streams(*model_), model_->frame_rate, hand_over_seconds),

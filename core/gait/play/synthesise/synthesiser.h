@@ -38,9 +38,8 @@ class Synthesiser {
  public:
   static constexpr int longest_past = 600, longest_future = 120;  // frames
 
-  // `tables`: the model's, to share them. Throws Error as StepWalker does.
-  explicit Synthesiser(std::shared_ptr<const Model> model, const SynthesiserSettings& settings = {},
-                       std::shared_ptr<const StepTables> tables = nullptr);
+  // Throws Error as StepWalker does.
+  explicit Synthesiser(const PlayModel& played, const SynthesiserSettings& settings = {});
 
   // Takes the next frame's Gaussian over all output values: statics, first, then second differences
   // per frame, 3 * model.output.values of either. Values that the model leaves out keep their mean.
