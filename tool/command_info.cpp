@@ -1,8 +1,6 @@
 // gait info: everything a model knows of itself.
 #include <cmath>
 #include <cstdio>
-#include <memory>
-#include <nlohmann/json.hpp>
 #include <numbers>
 #include <string>
 #include <vector>
@@ -11,7 +9,9 @@
 #include "gait/corpus/demo_model.h"
 #include "gait/judge/stream_summary.h"
 #include "gait/model/model_words.h"
-#include "model_argument.h"
+#include "json_report.h"
+#include "number_words.h"
+#include "option_kinds.h"
 #include "play_options.h"
 #include "space_report.h"
 
@@ -50,11 +50,7 @@ void print_row(const char* what, const std::string& text) {
   std::printf("%-14s %s\n", what, text.c_str());
 }
 
-std::string number(double value) {
-  char text[32];
-  std::snprintf(text, sizeof text, "%.4g", value);
-  return text;
-}
+std::string number(double value) { return in_words("%.4g", value); }
 
 // Degrees of rotations, the stream's own unit of anything else.
 double told_deviation(const Stream& stream, const StreamSummary& summary) {
@@ -241,28 +237,31 @@ void print_json(const Model& model) {
                               {"style_temper", play.style_temper}}},
                             {"spaces", spaces_as_json(model)},
                             {"training", as_json(model.training)}};
-  std::puts(report.dump(2, ' ', false, nlohmann::json::error_handler_t::replace).c_str());
+  print_report(report);
+}
+
+void info(const InfoOptions& options) {
+  const Model model = model_named(options.model);
+  if (options.json)
+    print_json(model);
+  else
+    print_text(model);
+}
+
+void add_options(CLI::App& app, InfoOptions& options) {
+  add_model_argument(app, options.model);
+  add_json_flag(app, options.json);
+  app.footer(R"(Durations are in seconds, angles in degrees.
+
+Examples:
+  gait info walks.gait
+  gait info gait-demo --json)");
 }
 
 }  // namespace
 
 Command info_command(CLI::App& program) {
-  const auto options = std::make_shared<InfoOptions>();
-  CLI::App* app = program.add_subcommand("info", "Say what is in a model");
-  add_model_argument(*app, options->model);
-  app->add_flag("--json", options->json, "Report as JSON");
-  app->footer(
-      "Durations are in seconds, angles in degrees.\n\n"
-      "Examples:\n"
-      "  gait info walks.gait\n"
-      "  gait info gait-demo --json");
-  return {app, [options] {
-            const Model model = model_named(options->model);
-            if (options->json)
-              print_json(model);
-            else
-              print_text(model);
-          }};
+  return make_command(program, "info", "Say what is in a model", add_options, info);
 }
 
 }  // namespace gait::tool
