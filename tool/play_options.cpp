@@ -15,12 +15,6 @@ std::vector<std::string> decoder_names() {
 
 }  // namespace
 
-std::string decoder_name(DecoderKind kind) {
-  for (const auto& [known, word] : decoder_kind_words)
-    if (known == kind) return std::string(word);
-  return "";
-}
-
 void add_decoder(CLI::App& command, std::optional<DecoderKind>& decoder, const std::string& help) {
   command
       .add_option_function<std::string>(

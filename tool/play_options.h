@@ -16,6 +16,4 @@ void add_decoder(CLI::App& app, std::optional<DecoderKind>& decoder, const std::
 // Adds --decoder, --lag, --temper, --strength, --past, --current and --future.
 void add_play_options(CLI::App& app, PlayerSettings& settings);
 
-std::string decoder_name(DecoderKind kind);
-
 }  // namespace gait::tool
