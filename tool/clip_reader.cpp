@@ -4,6 +4,7 @@
 #include <cstdio>
 
 #include "gait/error.h"
+#include "option_kinds.h"
 
 namespace gait::tool {
 
@@ -32,23 +33,19 @@ BodyFrameOverride said_of_frame(const ClipReading& reading) {
   return said;
 }
 
-void add_unit_and_up(CLI::App& command, ClipReading& reading) {
-  command
-      .add_option("--unit", reading.unit,
-                  "Unit of the files: m, cm, mm, in, ft or metres per unit (guessed from the legs)")
-      ->check(CLI::Validator(unit_fault, ""))
-      ->type_name("UNIT");
-  command.add_option("--up", reading.up, "Axis that points up: x, y or z (guessed from the body)")
-      ->transform(CLI::IsMember({"x", "y", "z"}, CLI::ignore_case))
-      ->type_name("AXIS");
+void add_unit_and_up(CLI::App& app, ClipReading& reading) {
+  add_value(app, "--unit", "UNIT", reading.unit,
+            "Unit of the files: m, cm, mm, in, ft or metres per unit (guessed from the legs)")
+      ->check(CLI::Validator(unit_fault, ""));
+  add_value(app, "--up", "AXIS", reading.up,
+            "Axis that points up: x, y or z (guessed from the body)")
+      ->transform(CLI::IsMember({"x", "y", "z"}, CLI::ignore_case));
 }
 
-void add_clip_reading(CLI::App& command, ClipReading& reading) {
-  add_unit_and_up(command, reading);
-  command
-      .add_option("--roles", reading.roles,
-                  "File with lines `joint = role` for names that are not understood")
-      ->type_name("FILE");
+void add_clip_reading(CLI::App& app, ClipReading& reading) {
+  add_unit_and_up(app, reading);
+  add_value(app, "--roles", "FILE", reading.roles,
+            "File with lines `joint = role` for names that are not understood");
 }
 
 ReadClip read_clip(const std::filesystem::path& path, const ClipReading& reading,

@@ -22,9 +22,9 @@ struct ClipReading {
 };
 
 // Adds --unit, --up and --roles, checked while the command line is read.
-void add_clip_reading(CLI::App& command, ClipReading& reading);
+void add_clip_reading(CLI::App& app, ClipReading& reading);
 // --unit and --up alone, for what finds roles without names.
-void add_unit_and_up(CLI::App& command, ClipReading& reading);
+void add_unit_and_up(CLI::App& app, ClipReading& reading);
 
 BodyFrameOverride said_of_frame(const ClipReading& reading);
 

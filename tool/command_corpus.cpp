@@ -3,8 +3,6 @@
 #include <cstdio>
 #include <filesystem>
 #include <map>
-#include <memory>
-#include <nlohmann/json.hpp>
 #include <string>
 #include <system_error>
 #include <utility>
@@ -15,7 +13,8 @@
 #include "gait/error.h"
 #include "gait/files/bvh.h"
 #include "gait/files/label_file.h"
-#include "number_words.h"
+#include "json_report.h"
+#include "option_kinds.h"
 #include "progress.h"
 
 namespace gait::tool {
@@ -76,7 +75,7 @@ void corpus(const CorpusOptions& options) {
                                   {"clips", styles[style].clips},
                                   {"cycles", styles[style].cycles},
                                   {"seconds", styles[style].seconds}});
-    std::puts(report.dump(2, ' ', false, nlohmann::json::error_handler_t::replace).c_str());
+    print_report(report);
     return;
   }
   std::printf("%-16s %6s %7s %9s\n", "style", "clips", "cycles", "seconds");
@@ -87,30 +86,29 @@ void corpus(const CorpusOptions& options) {
               std::string(corpus_notice).c_str());
 }
 
+void add_options(CLI::App& app, CorpusOptions& options) {
+  add_argument(app, "DIR", options.folder, "Folder to write to, made when missing");
+  add_value(app, "--seed", "N", options.seed, "The same seed gives the same walks")
+      ->check(seed_check());
+  app.add_flag("--speeds", options.speeds,
+               "Write the neutral walk at 0.6 to 2.0 m/s as well: walk_neutral_SPEED.bvh");
+  add_json_flag(app, options.json);
+  app.footer(
+      R"(Each walk_STYLE_TAKE.bvh comes with walk_STYLE_TAKE.txt, its exact contacts in Audacity's
+label form.
+
+Examples:
+  gait corpus walks
+  gait corpus walks --speeds
+  gait render walks/walk_*_1.bvh -o styles.png)");
+}
+
 }  // namespace
 
 Command corpus_command(CLI::App& program) {
-  const auto options = std::make_shared<CorpusOptions>();
-  CLI::App* app = program.add_subcommand(
-      "corpus", "Write the built-in synthetic walks: eleven styles, BVH and labels");
-  app->add_option("DIR", options->folder, "Folder to write to, made when missing")
-      ->required()
-      ->default_str("")
-      ->type_name("");
-  app->add_option("--seed", options->seed, "The same seed gives the same walks")
-      ->check(seed_check())
-      ->type_name("N");
-  app->add_flag("--speeds", options->speeds,
-                "Write the neutral walk at 0.6 to 2.0 m/s as well: walk_neutral_SPEED.bvh");
-  app->add_flag("--json", options->json, "Report as JSON");
-  app->footer(
-      "Each walk_STYLE_TAKE.bvh comes with walk_STYLE_TAKE.txt, its exact contacts in Audacity's\n"
-      "label form.\n\n"
-      "Examples:\n"
-      "  gait corpus walks\n"
-      "  gait corpus walks --speeds\n"
-      "  gait render walks/walk_*_1.bvh -o styles.png");
-  return {app, [options] { corpus(*options); }};
+  return make_command(program, "corpus",
+                      "Write the built-in synthetic walks: eleven styles, BVH and labels",
+                      add_options, corpus);
 }
 
 }  // namespace gait::tool

@@ -8,7 +8,7 @@
 #include "gait/corpus/demo_model.h"
 #include "gait/motion/rest_calibration.h"
 #include "interrupt.h"
-#include "model_argument.h"
+#include "option_kinds.h"
 #include "play_options.h"
 #include "progress.h"
 #include "walk_files.h"
@@ -40,31 +40,37 @@ Evaluation judge(const std::shared_ptr<const Model>& model, const EvaluateOption
   });
 }
 
+void report(const EvaluateOptions& options) {
+  const auto model = std::make_shared<const Model>(model_named(options.model));
+  const Evaluation evaluation = judge(model, options);
+  for (const std::string& skipped : evaluation.skipped)
+    std::fprintf(stderr, "gait evaluate: warning: left out: %s\n", skipped.c_str());
+  if (options.json)
+    print_json(evaluation, *model);
+  else
+    print_table(evaluation, *model);
+}
+
+void add_options(CLI::App& app, EvaluateOptions& options) {
+  add_model_argument(app, options.model);
+  add_walk_reading(app, options.reading);
+  add_play_options(app, options.settings);
+  add_json_flag(app, options.json, "Report as JSON: every figure, per clip, style and joint");
+  app.footer(std::string(label_help) + R"(
+
+Figures are means over clips, and pooled over frames where slow walkers count
+for more.
+
+Examples:
+  gait evaluate walks.gait unseen/*.bvh
+  gait evaluate walks.gait unseen --decoder forward --strength 1.2 --json)");
+}
+
 }  // namespace
 
 Command evaluate_command(CLI::App& program) {
-  const auto options = std::make_shared<EvaluateOptions>();
-  CLI::App* app = program.add_subcommand("evaluate", "Say how well a model does on captured walks");
-  add_model_argument(*app, options->model);
-  add_walk_reading(*app, options->reading);
-  add_play_options(*app, options->settings);
-  app->add_flag("--json", options->json, "Report as JSON: every figure, per clip, style and joint");
-  app->footer(std::string(label_help) +
-              "\n\nFigures are means over clips, and pooled over frames where slow walkers count\n"
-              "for more.\n\n"
-              "Examples:\n"
-              "  gait evaluate walks.gait unseen/*.bvh\n"
-              "  gait evaluate walks.gait unseen --decoder forward --strength 1.2 --json");
-  return {app, [options] {
-            const auto model = std::make_shared<const Model>(model_named(options->model));
-            const Evaluation evaluation = judge(model, *options);
-            for (const std::string& skipped : evaluation.skipped)
-              std::fprintf(stderr, "gait evaluate: warning: left out: %s\n", skipped.c_str());
-            if (options->json)
-              print_json(evaluation, *model);
-            else
-              print_table(evaluation, *model);
-          }};
+  return make_command(program, "evaluate", "Say how well a model does on captured walks",
+                      add_options, report);
 }
 
 }  // namespace gait::tool

@@ -1,8 +1,6 @@
 // gait info: everything a model knows of itself.
 #include <cmath>
 #include <cstdio>
-#include <memory>
-#include <nlohmann/json.hpp>
 #include <numbers>
 #include <string>
 #include <vector>
@@ -10,9 +8,11 @@
 #include "commands.h"
 #include "gait/corpus/demo_model.h"
 #include "gait/judge/stream_summary.h"
+#include "gait/model/model_fields.h"
 #include "gait/model/model_words.h"
-#include "model_argument.h"
-#include "play_options.h"
+#include "json_report.h"
+#include "number_words.h"
+#include "option_kinds.h"
 #include "space_report.h"
 
 namespace gait::tool {
@@ -40,21 +40,11 @@ std::vector<std::string> successors_of(const Model& model, const Label& label) {
   return names;
 }
 
-std::string_view kind_name(StreamKind kind) {
-  for (const auto& [known, word] : stream_kind_words)
-    if (known == kind) return word;
-  return "";
-}
-
 void print_row(const char* what, const std::string& text) {
   std::printf("%-14s %s\n", what, text.c_str());
 }
 
-std::string number(double value) {
-  char text[32];
-  std::snprintf(text, sizeof text, "%.4g", value);
-  return text;
-}
+std::string number(double value) { return in_words("%.4g", value); }
 
 // Degrees of rotations, the stream's own unit of anything else.
 double told_deviation(const Stream& stream, const StreamSummary& summary) {
@@ -87,7 +77,7 @@ void print_labels(const Model& model) {
 }
 
 void print_play(const PlayDefaults& play) {
-  std::string decoder = decoder_name(play.decoder);
+  std::string decoder(word_of(decoder_kind_words, play.decoder));
   if (play.decoder == DecoderKind::lag) decoder += ", " + number(play.lag) + " s late";
   if (play.decoder == DecoderKind::forward) decoder += ", tempered by " + number(play.temper);
   print_row("decoder", decoder);
@@ -168,10 +158,22 @@ ordered_json as_json(const std::vector<Stream>& streams,
   for (std::size_t i = 0; i < streams.size(); ++i)
     list.push_back({{"name", streams[i].name},
                     {"size", streams[i].size},
-                    {"kind", kind_name(streams[i].kind)},
+                    {"kind", word_of(stream_kind_words, streams[i].kind)},
                     {"moving", summaries[i].moving},
                     {"deviation", told_deviation(streams[i], summaries[i])}});
   return {{"streams", list}, {"values", values}, {"values_moving", moving}};
+}
+
+ordered_json as_json(const PlayDefaults& play) {
+  ordered_json settings;
+  const auto list = [&](const char* key, const auto& value) {
+    if constexpr (std::is_same_v<decltype(value), const DecoderKind&>)
+      settings[key] = word_of(decoder_kind_words, value);
+    else
+      settings[key] = value;
+  };
+  fields_of(list, play);
+  return settings;
 }
 
 ordered_json as_json(const Training& training) {
@@ -216,7 +218,6 @@ void print_json(const Model& model) {
                         {"least_degrees", hinge.least * degrees},
                         {"most_degrees", hinge.most * degrees}});
   }
-  const PlayDefaults& play = model.play;
   const ordered_json report{{"name", model.name},
                             {"comment", model.training.comment},
                             {"synthetic", model.training.synthetic},
@@ -230,39 +231,34 @@ void print_json(const Model& model) {
                                                 model.output.values, model.output.statics())},
                             {"labels", labels},
                             {"styles", model.styles},
-                            {"play",
-                             {{"decoder", decoder_name(play.decoder)},
-                              {"lag", play.lag},
-                              {"temper", play.temper},
-                              {"past", play.past},
-                              {"future", play.future},
-                              {"strength", play.strength},
-                              {"style_memory", play.style_memory},
-                              {"style_temper", play.style_temper}}},
+                            {"play", as_json(model.play)},
                             {"spaces", spaces_as_json(model)},
                             {"training", as_json(model.training)}};
-  std::puts(report.dump(2, ' ', false, nlohmann::json::error_handler_t::replace).c_str());
+  print_report(report);
+}
+
+void info(const InfoOptions& options) {
+  const Model model = model_named(options.model);
+  if (options.json)
+    print_json(model);
+  else
+    print_text(model);
+}
+
+void add_options(CLI::App& app, InfoOptions& options) {
+  add_model_argument(app, options.model);
+  add_json_flag(app, options.json);
+  app.footer(R"(Durations are in seconds, angles in degrees.
+
+Examples:
+  gait info walks.gait
+  gait info gait-demo --json)");
 }
 
 }  // namespace
 
 Command info_command(CLI::App& program) {
-  const auto options = std::make_shared<InfoOptions>();
-  CLI::App* app = program.add_subcommand("info", "Say what is in a model");
-  add_model_argument(*app, options->model);
-  app->add_flag("--json", options->json, "Report as JSON");
-  app->footer(
-      "Durations are in seconds, angles in degrees.\n\n"
-      "Examples:\n"
-      "  gait info walks.gait\n"
-      "  gait info gait-demo --json");
-  return {app, [options] {
-            const Model model = model_named(options->model);
-            if (options->json)
-              print_json(model);
-            else
-              print_text(model);
-          }};
+  return make_command(program, "info", "Say what is in a model", add_options, info);
 }
 
 }  // namespace gait::tool

@@ -1,8 +1,6 @@
 // gait label: when which foot touches, and the steps between.
 #include <cstdio>
 #include <filesystem>
-#include <memory>
-#include <nlohmann/json.hpp>
 #include <string>
 #include <vector>
 
@@ -11,6 +9,8 @@
 #include "gait/error.h"
 #include "gait/files/label_file.h"
 #include "gait/motion/contacts.h"
+#include "json_report.h"
+#include "option_kinds.h"
 
 namespace gait::tool {
 
@@ -115,32 +115,32 @@ void label(const LabelOptions& options) {
     else
       print_table(clip);
   }
-  if (options.json)
-    std::puts(report.dump(2, ' ', false, nlohmann::json::error_handler_t::replace).c_str());
+  if (options.json) print_report(report);
   if (!found) throw Error("no steps found, nothing to label");
+}
+
+void add_options(CLI::App& app, LabelOptions& options) {
+  add_argument(app, "CLIP", options.clips, "BVH files");
+  add_value(app, "-o,--output", "FILE", options.output,
+            "Label file to write: Audacity's form, HTK's when the name ends in .lab; for several "
+            "clips a folder, one .txt for each");
+  add_json_flag(app, options.json);
+  add_clip_reading(app, options.reading);
+  app.footer(
+      R"(A contact is a foot's first touch; a step goes from one foot's contact to the other's and
+bears the name of the foot that starts it.
+
+Examples:
+  gait label walk.bvh
+  gait label walk.bvh -o walk.txt      open it beside the sound in Audacity
+  gait label takes/*.bvh -o labels/    one label file for each)");
 }
 
 }  // namespace
 
 Command label_command(CLI::App& program) {
-  const auto options = std::make_shared<LabelOptions>();
-  CLI::App* app =
-      program.add_subcommand("label", "Find when the feet touch, and the steps between");
-  app->add_option("CLIP", options->clips, "BVH files")->required()->default_str("")->type_name("");
-  app->add_option("-o,--output", options->output,
-                  "Label file to write: Audacity's form, HTK's when the name ends in .lab; for "
-                  "several clips a folder, one .txt for each")
-      ->type_name("FILE");
-  app->add_flag("--json", options->json, "Report as JSON");
-  add_clip_reading(*app, options->reading);
-  app->footer(
-      "A contact is a foot's first touch; a step goes from one foot's contact to the other's and\n"
-      "bears the name of the foot that starts it.\n\n"
-      "Examples:\n"
-      "  gait label walk.bvh\n"
-      "  gait label walk.bvh -o walk.txt      open it beside the sound in Audacity\n"
-      "  gait label takes/*.bvh -o labels/    one label file for each");
-  return {app, [options] { label(*options); }};
+  return make_command(program, "label", "Find when the feet touch, and the steps between",
+                      add_options, label);
 }
 
 }  // namespace gait::tool

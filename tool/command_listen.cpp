@@ -1,18 +1,17 @@
 // gait listen: live motion that comes over OSC, recorded as a BVH file.
 #include <chrono>
 #include <cstdio>
-#include <memory>
 #include <optional>
 #include <string>
 #include <thread>
 
+#include "commands.h"
 #include "gait/error.h"
 #include "gait/files/bvh.h"
 #include "gait/osc/receiver.h"
 #include "gait/osc/recording.h"
 #include "interrupt.h"
-#include "number_range.h"
-#include "osc_commands.h"
+#include "option_kinds.h"
 #include "output_file.h"
 
 namespace gait::tool {
@@ -82,32 +81,25 @@ void listen(const ListenOptions& options) {
               clip.skeleton.size(), std::string(osc::form_name(recorder.first)).c_str());
 }
 
+void add_options(CLI::App& app, ListenOptions& options) {
+  add_argument(app, "PORT", options.port, "Port to listen on")->check(within(1, 65535));
+  add_output(app, "BVH", options.output, "BVH file to write, in metres");
+  add_value(app, "--seconds", "S", options.seconds, "How long to listen (until Ctrl-C)")
+      ->check(within(0.1, 36000));
+  add_choice(app, "--form", {"vmc", "natnet", "neuron", "kinect", "gait"}, options.form,
+             "Read only this form (whichever comes)");
+  app.add_flag("--any", options.any, "From other machines too, not from this one alone")
+      ->default_str("");
+  app.footer(R"(Examples:
+  gait listen 39539 -o take.bvh --seconds 30
+  gait listen 39539 -o take.bvh --any)");
+}
+
 }  // namespace
 
 Command listen_command(CLI::App& program) {
-  const auto options = std::make_shared<ListenOptions>();
-  CLI::App* app = program.add_subcommand("listen", "Record live motion that comes over OSC");
-  app->add_option("PORT", options->port, "Port to listen on")
-      ->required()
-      ->default_str("")
-      ->check(within(1, 65535))
-      ->type_name("");
-  app->add_option("-o,--output", options->output, "BVH file to write, in metres")
-      ->required()
-      ->type_name("BVH");
-  app->add_option("--seconds", options->seconds, "How long to listen (until Ctrl-C)")
-      ->check(within(0.1, 36000.0))
-      ->type_name("S");
-  app->add_option("--form", options->form, "Read only this form (whichever comes)")
-      ->check(CLI::IsMember({"vmc", "natnet", "neuron", "kinect", "gait"}).description(""))
-      ->type_name("vmc|natnet|neuron|kinect|gait");
-  app->add_flag("--any", options->any, "From other machines too, not from this one alone")
-      ->default_str("");
-  app->footer(
-      "Examples:\n"
-      "  gait listen 39539 -o take.bvh --seconds 30\n"
-      "  gait listen 39539 -o take.bvh --any");
-  return {app, [options] { listen(*options); }};
+  return make_command(program, "listen", "Record live motion that comes over OSC", add_options,
+                      listen);
 }
 
 }  // namespace gait::tool

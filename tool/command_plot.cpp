@@ -1,16 +1,13 @@
 // gait plot: what a model holds, as the papers' figures.
-#include <algorithm>
-#include <cctype>
 #include <cstdint>
-#include <filesystem>
 #include <memory>
 #include <string>
 
 #include "commands.h"
 #include "draw/model_figures.h"
+#include "file_ending.h"
 #include "gait/corpus/demo_model.h"
-#include "model_argument.h"
-#include "number_words.h"
+#include "option_kinds.h"
 
 namespace gait::tool {
 
@@ -31,44 +28,36 @@ Chart figure_of(const PlotOptions& options) {
 }
 
 void plot(const PlotOptions& options) {
-  std::string ending = std::filesystem::path(options.output).extension().string();
-  std::transform(ending.begin(), ending.end(), ending.begin(),
-                 [](unsigned char c) { return static_cast<char>(std::tolower(c)); });
+  const std::string ending = ending_of(options.output);
   if (ending != ".png" && ending != ".svg")
     throw UsageError("-o " + options.output + ": expected a name that ends in .svg or .png");
-  write_chart(figure_of(options), options.output, ending == ".svg");
+  write_chart(figure_of(options), options.output);
+}
+
+void add_options(CLI::App& app, PlotOptions& options) {
+  add_model_argument(app, options.model);
+  add_argument(app, "WHAT", options.what, "variance, scores, cycles, speed or frequency")
+      ->check(one_of({"variance", "scores", "cycles", "speed", "frequency"}));
+  add_output(app, "SVG|PNG", options.output, "Figure to write");
+  add_value(app, "--subject", "NAME", options.subject,
+            "With speed: in this subject's own space (all in the one they share)");
+  add_value(app, "--seed", "N", options.seed, "With cycles: of the walks that are drawn")
+      ->check(seed_check());
+  app.footer(R"(variance    cumulated variance over components, a line per space
+scores      first scores of each style's cycles
+cycles      durations and first scores of cycles that follow each other
+speed       scores over speed, with standing
+frequency   cycles per second over speed, with Inman's law
+
+Examples:
+  gait plot walks.gait variance -o variance.svg
+  gait plot speeds.gait speed --subject 08 -o speed.png)");
 }
 
 }  // namespace
 
 Command plot_command(CLI::App& program) {
-  const auto options = std::make_shared<PlotOptions>();
-  CLI::App* app = program.add_subcommand("plot", "Draw what a model holds");
-  add_model_argument(*app, options->model);
-  app->add_option("WHAT", options->what, "variance, scores, cycles, speed or frequency")
-      ->required()
-      ->default_str("")
-      ->check(CLI::IsMember({"variance", "scores", "cycles", "speed", "frequency"}).description(""))
-      ->type_name("");
-  app->add_option("-o,--output", options->output, "Figure to write")
-      ->required()
-      ->type_name("SVG|PNG");
-  app->add_option("--subject", options->subject,
-                  "With speed: in this subject's own space (all in the one they share)")
-      ->type_name("NAME");
-  app->add_option("--seed", options->seed, "With cycles: of the walks that are drawn")
-      ->check(seed_check())
-      ->type_name("N");
-  app->footer(
-      "variance    cumulated variance over components, a line per space\n"
-      "scores      first scores of each style's cycles\n"
-      "cycles      durations and first scores of cycles that follow each other\n"
-      "speed       scores over speed, with standing\n"
-      "frequency   cycles per second over speed, with Inman's law\n\n"
-      "Examples:\n"
-      "  gait plot walks.gait variance -o variance.svg\n"
-      "  gait plot speeds.gait speed --subject 08 -o speed.png");
-  return {app, [options] { plot(*options); }};
+  return make_command(program, "plot", "Draw what a model holds", add_options, plot);
 }
 
 }  // namespace gait::tool

@@ -9,7 +9,7 @@
 #include "decision_table.h"
 #include "gait/corpus/demo_model.h"
 #include "gait/offline/reconstructed_file.h"
-#include "model_argument.h"
+#include "option_kinds.h"
 #include "output_file.h"
 #include "play_options.h"
 
@@ -43,41 +43,38 @@ void reconstruct(const ReconstructOptions& options) {
   if (table) table->keep();
 }
 
+void add_options(CLI::App& app, ReconstructOptions& options) {
+  add_model_argument(app, options.model);
+  add_argument(app, "CLIP", options.clip, "BVH file");
+  add_output(app, "BVH", options.output,
+             "BVH file to write: same skeleton, rate and frames, input joints untouched");
+  add_choice(app, "--root", {"feet", "keep"}, options.root,
+             "Where the hips go: feet (as the found feet carry them, from the origin ahead) or "
+             "keep (place and heading of the clip)");
+  add_value(app, "--csv", "FILE", options.table,
+            "Table to write, a row per frame: time, step, state, log-likelihood, phase, cadence, "
+            "style posteriors");
+  add_play_options(app, options.settings);
+  app.add_flag("--calibrate", options.calibrate,
+               "Accept bones that rest in other directions than the model's: turn their joints' "
+               "frames to match, and back again");
+  add_unit_and_up(app, options.reading);
+  app.footer(
+      R"(Only the model's input joints are looked at. Delays that --lag or --future ask for are taken
+out again: frame t of what is written belongs to frame t of the clip.
+
+Examples:
+  gait reconstruct walks.gait upper.bvh -o whole.bvh
+  gait reconstruct gait-demo walk.bvh -o found.bvh --csv found.csv --root keep
+  gait reconstruct walks.gait walk.bvh -o caricature.bvh --strength 1.5)");
+}
+
 }  // namespace
 
 Command reconstruct_command(CLI::App& program) {
-  const auto options = std::make_shared<ReconstructOptions>();
-  CLI::App* app = program.add_subcommand(
-      "reconstruct", "Find the joints a model synthesises from those it is given");
-  add_model_argument(*app, options->model);
-  app->add_option("CLIP", options->clip, "BVH file")->required()->default_str("")->type_name("");
-  app->add_option("-o,--output", options->output,
-                  "BVH file to write: same skeleton, rate and frames, input joints untouched")
-      ->required()
-      ->type_name("BVH");
-  app->add_option("--root", options->root,
-                  "Where the hips go: feet (as the found feet carry them, from the origin ahead) "
-                  "or keep (place and heading of the clip)")
-      ->check(CLI::IsMember({"feet", "keep"}).description(""))
-      ->type_name("feet|keep");
-  app->add_option("--csv", options->table,
-                  "Table to write, a row per frame: time, step, state, log-likelihood, phase, "
-                  "cadence, style posteriors")
-      ->type_name("FILE");
-  add_play_options(*app, options->settings);
-  app->add_flag("--calibrate", options->calibrate,
-                "Accept bones that rest in other directions than the model's: turn their joints' "
-                "frames to match, and back again");
-  add_unit_and_up(*app, options->reading);
-  app->footer(
-      "Only the model's input joints are looked at. Delays that --lag or --future ask for are "
-      "taken\n"
-      "out again: frame t of what is written belongs to frame t of the clip.\n\n"
-      "Examples:\n"
-      "  gait reconstruct walks.gait upper.bvh -o whole.bvh\n"
-      "  gait reconstruct gait-demo walk.bvh -o found.bvh --csv found.csv --root keep\n"
-      "  gait reconstruct walks.gait walk.bvh -o caricature.bvh --strength 1.5");
-  return {app, [options] { reconstruct(*options); }};
+  return make_command(program, "reconstruct",
+                      "Find the joints a model synthesises from those it is given", add_options,
+                      reconstruct);
 }
 
 }  // namespace gait::tool

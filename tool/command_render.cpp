@@ -1,6 +1,4 @@
 // gait render: clips as a film strip of stick figures, or as a film.
-#include <algorithm>
-#include <cctype>
 #include <cmath>
 #include <filesystem>
 #include <memory>
@@ -9,15 +7,15 @@
 
 #include "clip_reader.h"
 #include "commands.h"
-#include "draw/canvas.h"
 #include "draw/film.h"
 #include "draw/film_strip.h"
 #include "draw/speed_grid.h"
 #include "draw/walk_view.h"
+#include "file_ending.h"
 #include "gait/corpus/demo_model.h"
 #include "gait/error.h"
 #include "gait/numbers.h"
-#include "output_file.h"
+#include "option_kinds.h"
 #include "progress.h"
 #include "speed_words.h"
 
@@ -49,13 +47,6 @@ std::string view_fault(const std::string& view) {
              : "";
 }
 
-std::string ending_of(const std::string& path) {
-  std::string ending = std::filesystem::path(path).extension().string();
-  std::transform(ending.begin(), ending.end(), ending.begin(),
-                 [](unsigned char c) { return static_cast<char>(std::tolower(c)); });
-  return ending;
-}
-
 WalkView view_clip(const std::string& path, const RenderOptions& options) {
   const ReadClip read = read_clip(path, options.reading, "render");
   warn_of_roles("render", options.reading, read.roles_without_joint);
@@ -63,24 +54,6 @@ WalkView view_clip(const std::string& path, const RenderOptions& options) {
   WalkView view = view_walk(read.clip, read.roles, camera_degrees(options.view));
   view.name = std::filesystem::path(path).stem().string();
   return view;
-}
-
-void draw_strip(const std::vector<WalkView>& views, const WalkView* compared, int strobe,
-                const std::string& path, bool svg) {
-  std::vector<StripRow> rows;
-  for (const WalkView& view : views) rows.push_back(lay_out_row(view, compared, strobe));
-  const FilmStripPage page = lay_out_page(std::move(rows));
-  OutputFile output(path);
-  if (svg) {
-    Canvas canvas = Canvas::of_svg(output.part(), page.width, page.height);
-    draw_page(canvas, page);
-    canvas.finish(path);
-  } else {
-    Canvas canvas = Canvas::of_pixels(page.width, page.height);
-    draw_page(canvas, page);
-    canvas.write_png(output.part());
-  }
-  output.keep();
 }
 
 // What a model's speed walker walks, instead of clips.
@@ -94,7 +67,7 @@ void render_speeds(const RenderOptions& options, const std::string& ending) {
   if (!options.legs.empty()) grid.leg_lengths = lengths_said(options.legs, "--legs");
   grid.camera_degrees = camera_degrees(options.view);
   const auto model = std::make_shared<const Model>(model_named(options.clips.front()));
-  write_speed_grid(model, grid, options.output, ending == ".svg");
+  write_speed_grid(model, grid, options.output);
 }
 
 void render(const RenderOptions& options) {
@@ -120,52 +93,45 @@ void render(const RenderOptions& options) {
     Progress progress("gait render: drawing the film");
     write_film(views, compared.get(), options.output, [&](double share) { progress.show(share); });
   } else {
-    draw_strip(views, compared.get(), options.strobe, options.output, ending == ".svg");
+    write_film_strip(views, compared.get(), options.strobe, options.output);
   }
+}
+
+void add_options(CLI::App& app, RenderOptions& options) {
+  add_argument(app, "CLIP", options.clips, "BVH files, one row each; with --speeds a model");
+  add_output(app, "FILE", options.output,
+             "What to write: a picture (.png, .svg) or, where ffmpeg is, a film (.mp4)");
+  add_value(app, "--strobe", "N", options.strobe,
+            "Figures per row (about 12, as the walk's length asks)")
+      ->check(CLI::Range(1, 200))
+      ->default_str("");
+  add_value(app, "--compare", "BVH", options.compare,
+            "Another clip, drawn in grey behind the same moments, hips on hips");
+  add_value(app, "--view", "VIEW", options.view,
+            "Camera: side, front, or degrees around the walker (0 front, 90 right side)")
+      ->check(CLI::Validator(view_fault, ""));
+  add_value(app, "--speeds", "V,V,..", options.speeds,
+            "Draw a model's walk at these speeds instead: m/s, or 2,4,6,8,10km/h");
+  add_value(app, "--legs", "M,M,..", options.legs,
+            "With --speeds: a row for each length of thigh and shank, in metres");
+  add_clip_reading(app, options.reading);
+  app.footer(
+      R"(A walk's figures stand where they were. One that stays on the spot is spread by time.
+
+Examples:
+  gait render walk.bvh -o walk.png
+  gait render proud.bvh sad.bvh drunk.bvh -o styles.svg --strobe 9
+  gait render captured.bvh --compare reconstructed.bvh -o both.png
+  gait render speeds.gait --speeds 2,4,6,8,10km/h --legs 0.7,0.83,0.95 -o speeds.png
+  gait render walk.bvh --view 45 -o walk.mp4)");
 }
 
 }  // namespace
 
 Command render_command(CLI::App& program) {
-  const auto options = std::make_shared<RenderOptions>();
-  CLI::App* app =
-      program.add_subcommand("render", "Draw clips as a film strip of stick figures, or as a film");
-  app->add_option("CLIP", options->clips, "BVH files, one row each; with --speeds a model")
-      ->required()
-      ->default_str("")
-      ->type_name("");
-  app->add_option("-o,--output", options->output,
-                  "What to write: a picture (.png, .svg) or, where ffmpeg is, a film (.mp4)")
-      ->required()
-      ->type_name("FILE");
-  app->add_option("--strobe", options->strobe,
-                  "Figures per row (about 12, as the walk's length asks)")
-      ->check(CLI::Range(1, 200))
-      ->default_str("")
-      ->type_name("N");
-  app->add_option("--compare", options->compare,
-                  "Another clip, drawn in grey behind the same moments, hips on hips")
-      ->type_name("BVH");
-  app->add_option("--view", options->view,
-                  "Camera: side, front, or degrees around the walker (0 front, 90 right side)")
-      ->check(CLI::Validator(view_fault, ""))
-      ->type_name("VIEW");
-  app->add_option("--speeds", options->speeds,
-                  "Draw a model's walk at these speeds instead: m/s, or 2,4,6,8,10km/h")
-      ->type_name("V,V,..");
-  app->add_option("--legs", options->legs,
-                  "With --speeds: a row for each length of thigh and shank, in metres")
-      ->type_name("M,M,..");
-  add_clip_reading(*app, options->reading);
-  app->footer(
-      "A walk's figures stand where they were. One that stays on the spot is spread by time.\n\n"
-      "Examples:\n"
-      "  gait render walk.bvh -o walk.png\n"
-      "  gait render proud.bvh sad.bvh drunk.bvh -o styles.svg --strobe 9\n"
-      "  gait render captured.bvh --compare reconstructed.bvh -o both.png\n"
-      "  gait render speeds.gait --speeds 2,4,6,8,10km/h --legs 0.7,0.83,0.95 -o speeds.png\n"
-      "  gait render walk.bvh --view 45 -o walk.mp4");
-  return {app, [options] { render(*options); }};
+  return make_command(program, "render",
+                      "Draw clips as a film strip of stick figures, or as a film", add_options,
+                      render);
 }
 
 }  // namespace gait::tool

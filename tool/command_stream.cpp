@@ -1,11 +1,11 @@
 // gait stream: a clip sent over OSC as a suit would send it, to rehearse without one.
 #include <chrono>
-#include <memory>
 #include <optional>
 #include <string>
 #include <thread>
 
 #include "clip_reader.h"
+#include "commands.h"
 #include "gait/error.h"
 #include "gait/motion/humanoid_body.h"
 #include "gait/motion/kinematics.h"
@@ -14,8 +14,7 @@
 #include "gait/osc/humanoid_sender.h"
 #include "gait/osc/rig_sender.h"
 #include "interrupt.h"
-#include "number_range.h"
-#include "osc_commands.h"
+#include "option_kinds.h"
 
 namespace gait::tool {
 
@@ -116,28 +115,27 @@ void stream(const StreamOptions& options) {
                  teller.refused());
 }
 
+void add_options(CLI::App& app, StreamOptions& options) {
+  add_argument(app, "IN", options.input, "BVH file");
+  add_value(app, "--to", "HOST:PORT", options.to,
+            "Where to; avatars listen on port 39539 by custom")
+      ->required();
+  add_choice(app, "--form", {"vmc", "natnet", "neuron", "gait"}, options.form,
+             "vmc, natnet, neuron, or gait (the rig as it is)");
+  add_value(app, "--rate", "HZ", options.rate, "Frames per second (the clip's)")
+      ->check(within(1, 1000));
+  app.add_flag("--loop", options.loop, "Again and again, until Ctrl-C")->default_str("");
+  add_clip_reading(app, options.reading);
+  app.footer(R"(Examples:
+  gait stream walk.bvh --to localhost:39539 --loop
+  gait stream walk.bvh --to 192.168.0.7:39540 --form gait --rate 60)");
+}
+
 }  // namespace
 
 Command stream_command(CLI::App& program) {
-  const auto options = std::make_shared<StreamOptions>();
-  CLI::App* app = program.add_subcommand("stream", "Send a clip over OSC as live motion");
-  app->add_option("IN", options->input, "BVH file")->required()->default_str("")->type_name("");
-  app->add_option("--to", options->to, "Where to; avatars listen on port 39539 by custom")
-      ->required()
-      ->type_name("HOST:PORT");
-  app->add_option("--form", options->form, "vmc, natnet, neuron, or gait (the rig as it is)")
-      ->check(CLI::IsMember({"vmc", "natnet", "neuron", "gait"}).description(""))
-      ->type_name("vmc|natnet|neuron|gait");
-  app->add_option("--rate", options->rate, "Frames per second (the clip's)")
-      ->check(within(1.0, 1000.0))
-      ->type_name("HZ");
-  app->add_flag("--loop", options->loop, "Again and again, until Ctrl-C")->default_str("");
-  add_clip_reading(*app, options->reading);
-  app->footer(
-      "Examples:\n"
-      "  gait stream walk.bvh --to localhost:39539 --loop\n"
-      "  gait stream walk.bvh --to 192.168.0.7:39540 --form gait --rate 60");
-  return {app, [options] { stream(*options); }};
+  return make_command(program, "stream", "Send a clip over OSC as live motion", add_options,
+                      stream);
 }
 
 }  // namespace gait::tool

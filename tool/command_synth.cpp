@@ -9,9 +9,7 @@
 #include "gait/corpus/demo_model.h"
 #include "gait/files/bvh.h"
 #include "gait/offline/planned_walk.h"
-#include "model_argument.h"
-#include "number_range.h"
-#include "number_words.h"
+#include "option_kinds.h"
 #include "output_file.h"
 #include "style_words.h"
 #include "walk_output.h"
@@ -21,12 +19,12 @@ namespace gait::tool {
 namespace {
 
 struct SynthOptions {
-  std::string model, output, style, mix, engine = "style";
+  std::string model, style, mix, engine = "style";
   std::vector<std::string> changes;
-  std::optional<double> variation, exaggeration, seconds, rate;
+  std::optional<double> variation, exaggeration, seconds;
   std::optional<int> cycles;
   std::optional<std::uint64_t> seed;
-  double turn = 0;  // degrees per second
+  WalkOutput walk;
 };
 
 StyledWalkPlan plan_of(const SynthOptions& options) {
@@ -48,65 +46,57 @@ StyledWalkPlan plan_of(const SynthOptions& options) {
   plan.cycles = options.cycles.value_or(0);
   plan.seconds = options.seconds.value_or(0);
   plan.seed = options.seed.value_or(1);
-  plan.turn = options.turn * degree;
-  plan.frame_rate = options.rate.value_or(0);
+  plan.turn = options.walk.turn_in_radians();
+  plan.frame_rate = options.walk.rate;
   return plan;
 }
 
 void synth(const SynthOptions& options) {
   const StyledWalkPlan plan = plan_of(options);
-  OutputFile output(options.output);
+  OutputFile output(options.walk.path);
   const auto model = std::make_shared<const Model>(model_named(options.model));
   const Clip clip = options.engine == "step" ? stepped_walk(model, plan) : styled_walk(model, plan);
   write_bvh(bvh_from_clip(clip), output.part());
   output.keep();
 }
 
+void add_options(CLI::App& app, SynthOptions& options) {
+  add_model_argument(app, options.model);
+  add_value(app, "--style", "NAME", options.style, "Style to walk in");
+  add_value(app, "--mix", "MIX", options.mix, "Styles by weight: proud=0.7,sad=0.3");
+  add_value(app, "--then", "NAME@S", options.changes,
+            "Go over to another style or mix at this second; may be repeated")
+      ->allow_extra_args(false)
+      ->default_str("");
+  add_choice(app, "--engine", {"style", "step"}, options.engine,
+             "style: cycles that vary as captured ones do; step: step by step, evenly");
+  add_value(app, "--variation", "V", options.variation,
+            "How much cycles differ: 0 not at all, 1 as captured, up to 2 (1)")
+      ->check(within(0, 2));
+  add_value(app, "--exaggeration", "X", options.exaggeration,
+            "0: the mean of all styles, 1: the style, up to 3: a caricature (1)")
+      ->check(within(-1, 3));
+  add_value(app, "--cycles", "N", options.cycles,
+            "Cycles to walk, from right contact to right contact")
+      ->check(CLI::Range(1, 10000));
+  add_value(app, "--seconds", "S", options.seconds, "Seconds to walk")->check(walk_seconds());
+  add_value(app, "--seed", "N", options.seed, "The same seed gives the same walk (1)")
+      ->check(seed_check());
+  add_walk_output(app, options.walk);
+  app.footer(
+      R"(The walk is under way when the file begins, at a right contact, and goes where its own feet
+take it.
+
+Examples:
+  gait synth walks.gait --style sad --cycles 20 -o sad.bvh
+  gait synth walks.gait --mix proud=0.7,drunk=0.3 --seconds 30 --seed 7 -o mixed.bvh
+  gait synth walks.gait --style proud --then sad@4 --seconds 8 -o change.bvh)");
+}
+
 }  // namespace
 
 Command synth_command(CLI::App& program) {
-  const auto options = std::make_shared<SynthOptions>();
-  CLI::App* app = program.add_subcommand("synth", "Walk in a style, or a mix of them");
-  add_model_argument(*app, options->model);
-  app->add_option("--style", options->style, "Style to walk in")->type_name("NAME");
-  app->add_option("--mix", options->mix, "Styles by weight: proud=0.7,sad=0.3")->type_name("MIX");
-  app->add_option("--then", options->changes,
-                  "Go over to another style or mix at this second; may be repeated")
-      ->allow_extra_args(false)
-      ->default_str("")
-      ->type_name("NAME@S");
-  app->add_option("--engine", options->engine,
-                  "style: cycles that vary as captured ones do; step: step by step, evenly")
-      ->check(CLI::IsMember({"style", "step"}).description(""))
-      ->type_name("style|step");
-  app->add_option("--variation", options->variation,
-                  "How much cycles differ: 0 not at all, 1 as captured, up to 2 (1)")
-      ->check(within(0.0, 2.0))
-      ->type_name("V");
-  app->add_option("--exaggeration", options->exaggeration,
-                  "0: the mean of all styles, 1: the style, up to 3: a caricature (1)")
-      ->check(within(-1.0, 3.0))
-      ->type_name("X");
-  app->add_option("--cycles", options->cycles,
-                  "Cycles to walk, from right contact to right contact")
-      ->check(CLI::Range(1, 10000))
-      ->type_name("N");
-  app->add_option("--seconds", options->seconds, "Seconds to walk")
-      ->check(within(0.1, 7200.0))
-      ->type_name("S");
-  app->add_option("--seed", options->seed, "The same seed gives the same walk (1)")
-      ->check(seed_check())
-      ->type_name("N");
-  add_walk_output(*app, options->turn, options->rate, options->output);
-  app->footer(
-      "The walk is under way when the file begins, at a right contact, and goes where its own "
-      "feet\n"
-      "take it.\n\n"
-      "Examples:\n"
-      "  gait synth walks.gait --style sad --cycles 20 -o sad.bvh\n"
-      "  gait synth walks.gait --mix proud=0.7,drunk=0.3 --seconds 30 --seed 7 -o mixed.bvh\n"
-      "  gait synth walks.gait --style proud --then sad@4 --seconds 8 -o change.bvh");
-  return {app, [options] { synth(*options); }};
+  return make_command(program, "synth", "Walk in a style, or a mix of them", add_options, synth);
 }
 
 }  // namespace gait::tool

@@ -18,7 +18,7 @@
 #include "gait/teach/walk_model.h"
 #include "gait/teach/walks_over_speed.h"
 #include "interrupt.h"
-#include "number_range.h"
+#include "option_kinds.h"
 #include "output_file.h"
 #include "play_options.h"
 #include "progress.h"
@@ -141,70 +141,49 @@ void train(const TrainOptions& options) {
     print_table(report);
 }
 
+void add_options(CLI::App& app, TrainOptions& options) {
+  add_walk_reading(app, options.reading);
+  add_output(app, "M.gait", options.output, "Model to write");
+  add_value(app, "--states", "N", options.states, "States per step (8)")->check(CLI::Range(1, 100));
+  add_list(app, "--output-joints", "NAMES", options.output_joints,
+           "Joints to synthesise, a,b,... (hips and legs)");
+  add_list(app, "--input-joints", "NAMES", options.input_joints,
+           "Joints that are measured, a,b,... (all but hips and legs)");
+  add_value(app, "--rate", "HZ", options.rate,
+            "The model's frames per second (30, or the clips' own when slower)")
+      ->check(within(5, 240));
+  add_list(app, "--history", "MS,MS,..", options.history,
+           "How far back inputs are compared with themselves, in ms (33.3,166.7,333.3)")
+      ->check(within(1, 2000));
+  add_value(app, "--regularisation", "K", options.regularisation,
+            "How firmly covariances are held, in frames (by cross-validation)")
+      ->check(within(0.01, 1e6));
+  add_value(app, "--placement", "DEG", options.placement,
+            "How far a live performer's sensors may sit or be calibrated off, in degrees")
+      ->check(within(0, 30));
+  add_value(app, "--rounds", "N", options.rounds, "Rounds of Baum-Welch (by cross-validation)")
+      ->check(CLI::Range(0, 100));
+  add_decoder(app, options.decoder, "How the model decodes unless told otherwise (viterbi)");
+  add_value(app, "--threads", "N", options.threads,
+            "Threads to learn with; the model is the same for any number (all processors)")
+      ->check(CLI::Range(1, 256));
+  add_value(app, "--comment", "TEXT", options.comment, "A sentence to keep in the model");
+  app.add_flag("--synthetic", options.synthetic,
+               "Keep in the model that nobody walked these walks");
+  add_json_flag(app, options.json);
+  app.footer(std::string(label_help) + R"(
+
+Examples:
+  gait train walks -o walks.gait
+  gait train takes/*.bvh -o takes.gait --label '{subject}_{style}_{take}.bvh'
+  gait train --manifest walks.csv -o walks.gait --states 5 --threads 2
+  gait train walks -o arms.gait --output-joints LeftArm,RightArm)");
+}
+
 }  // namespace
 
 Command train_command(CLI::App& program) {
-  const auto options = std::make_shared<TrainOptions>();
-  CLI::App* app = program.add_subcommand("train", "Learn a model from captured walks");
-  add_walk_reading(*app, options->reading);
-  app->add_option("-o,--output", options->output, "Model to write")
-      ->required()
-      ->type_name("M.gait");
-  app->add_option("--states", options->states, "States per step (8)")
-      ->check(CLI::Range(1, 100))
-      ->type_name("N");
-  app->add_option("--output-joints", options->output_joints,
-                  "Joints to synthesise, a,b,... (hips and legs)")
-      ->delimiter(',')
-      ->allow_extra_args(false)
-      ->default_str("")
-      ->type_name("NAMES");
-  app->add_option("--input-joints", options->input_joints,
-                  "Joints that are measured, a,b,... (all but hips and legs)")
-      ->delimiter(',')
-      ->allow_extra_args(false)
-      ->default_str("")
-      ->type_name("NAMES");
-  app->add_option("--rate", options->rate,
-                  "The model's frames per second (30, or the clips' own when slower)")
-      ->check(within(5.0, 240.0))
-      ->type_name("HZ");
-  app->add_option("--history", options->history,
-                  "How far back inputs are compared with themselves, in ms (33.3,166.7,333.3)")
-      ->delimiter(',')
-      ->allow_extra_args(false)
-      ->default_str("")
-      ->check(within(1.0, 2000.0))
-      ->type_name("MS,MS,..");
-  app->add_option("--regularisation", options->regularisation,
-                  "How firmly covariances are held, in frames (by cross-validation)")
-      ->check(within(0.01, 1e6))
-      ->type_name("K");
-  app->add_option("--placement", options->placement,
-                  "How far a live performer's sensors may sit or be calibrated off, in degrees")
-      ->check(within(0.0, 30.0))
-      ->capture_default_str()
-      ->type_name("DEG");
-  app->add_option("--rounds", options->rounds, "Rounds of Baum-Welch (by cross-validation)")
-      ->check(CLI::Range(0, 100))
-      ->type_name("N");
-  add_decoder(*app, options->decoder, "How the model decodes unless told otherwise (viterbi)");
-  app->add_option("--threads", options->threads,
-                  "Threads to learn with; the model is the same for any number (all processors)")
-      ->check(CLI::Range(1, 256))
-      ->type_name("N");
-  app->add_option("--comment", options->comment, "A sentence to keep in the model")
-      ->type_name("TEXT");
-  app->add_flag("--synthetic", options->synthetic,
-                "Keep in the model that nobody walked these walks");
-  app->add_flag("--json", options->json, "Report as JSON");
-  app->footer(std::string(label_help) +
-              "\n\nExamples:\n"
-              "  gait train walks -o walks.gait\n"
-              "  gait train takes/*.bvh -o takes.gait --label '{subject}_{style}_{take}.bvh'\n"
-              "  gait train --manifest walks.csv -o walks.gait --states 5 --threads 2\n"
-              "  gait train walks -o arms.gait --output-joints LeftArm,RightArm");
-  return {app, [options] { train(*options); }};
+  return make_command(program, "train", "Learn a model from captured walks", add_options, train);
 }
 
 }  // namespace gait::tool

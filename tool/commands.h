@@ -1,9 +1,10 @@
-// The subcommands of `gait`, one file each (command_NAME.cpp). Each registers its options with the
-// program and gives back what to run when it was chosen.
+// The subcommands of `gait`, one file each (command_NAME.cpp): a struct of options, a function that
+// adds them to the command line, and one that does the work. make_command joins the three.
 #pragma once
 
 #include <CLI/CLI.hpp>
 #include <functional>
+#include <memory>
 #include <stdexcept>
 
 namespace gait::tool {
@@ -13,11 +14,22 @@ struct Command {
   std::function<void()> run;  // throws Error when the work failed, UsageError when used wrongly
 };
 
-// Used wrongly in a way that only shows after the options were read: exit code 2.
+// The options were read but do not fit together: exit code 2.
 class UsageError : public std::runtime_error {
  public:
   using std::runtime_error::runtime_error;
 };
+
+// Adds the subcommand `name` to the program. `add_options` binds the subcommand's options to the
+// fields of an Options and sets the footer of its --help; `work` gets the options that were read.
+template <typename Options>
+Command make_command(CLI::App& program, const char* name, const char* purpose,
+                     void (*add_options)(CLI::App&, Options&), void (*work)(const Options&)) {
+  const auto options = std::make_shared<Options>();
+  CLI::App* app = program.add_subcommand(name, purpose);
+  add_options(*app, *options);
+  return {app, [options, work] { work(*options); }};
+}
 
 Command corpus_command(CLI::App& program);
 Command label_command(CLI::App& program);
@@ -29,5 +41,9 @@ Command reconstruct_command(CLI::App& program);
 Command synth_command(CLI::App& program);
 Command walk_command(CLI::App& program);
 Command plot_command(CLI::App& program);
+
+// Only in builds with liblo (GAIT_HAS_OSC).
+Command stream_command(CLI::App& program);
+Command listen_command(CLI::App& program);
 
 }  // namespace gait::tool

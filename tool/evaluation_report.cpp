@@ -3,10 +3,12 @@
 #include <algorithm>
 #include <cmath>
 #include <cstdio>
-#include <nlohmann/json.hpp>
 #include <numbers>
 #include <string>
 #include <vector>
+
+#include "json_report.h"
+#include "number_words.h"
 
 namespace gait::tool {
 
@@ -39,10 +41,7 @@ double delay_ms(const Evaluation& evaluation, const Model& model) {
 void print_row(const std::string& what, const char* format, double clips, double pooled,
                const std::string& meaning) {
   const auto number = [&](double value) {
-    char text[32];
-    if (std::isnan(value)) return std::string("-");
-    std::snprintf(text, sizeof text, format, value);
-    return std::string(text);
+    return std::isnan(value) ? std::string("-") : in_words(format, value);
   };
   std::printf("  %-22s %9s %9s  %s\n", what.c_str(), number(clips).c_str(), number(pooled).c_str(),
               meaning.c_str());
@@ -253,7 +252,7 @@ void print_json(const Evaluation& evaluation, const Model& model) {
       {"by_style", styles},
       {"by_joint", joints},
       {"by_clip", clips}};
-  std::puts(report.dump(2, ' ', false, nlohmann::json::error_handler_t::replace).c_str());
+  print_report(report);
 }
 
 }  // namespace gait::tool

@@ -10,9 +10,6 @@
 
 #include "commands.h"
 #include "gait/error.h"
-#ifdef GAIT_HAS_OSC
-#include "osc_commands.h"
-#endif
 
 namespace {
 

@@ -1,20 +1,14 @@
 #include "number_words.h"
 
-#include <cstdint>
-#include <string>
-
-#include "gait/numbers.h"
+#include <array>
+#include <cstdio>
 
 namespace gait::tool {
 
-CLI::Validator seed_check() {
-  return CLI::Validator(
-      [](const std::string& seed) {
-        return whole_number_in<std::uint64_t>(seed)
-                   ? std::string()
-                   : "expected a whole number from 0 to 2^64 - 1, found '" + seed + "'";
-      },
-      "");
+std::string in_words(const char* format, double value) {
+  std::array<char, 64> text{};
+  std::snprintf(text.data(), text.size(), format, value);
+  return text.data();
 }
 
 }  // namespace gait::tool

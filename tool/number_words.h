@@ -1,11 +1,11 @@
-// Checks of numbers on the command line that CLI11 does not make.
+// Numbers as words, for reports and pictures.
 #pragma once
 
-#include <CLI/CLI.hpp>
+#include <string>
 
 namespace gait::tool {
 
-// Checks a seed: CLI11 would read "-3" as a very large number.
-CLI::Validator seed_check();
+// `format`: of printf, for one double. Not more than 63 characters come out.
+std::string in_words(const char* format, double value);
 
 }  // namespace gait::tool

@@ -1,7 +1,7 @@
 #include "play_options.h"
 
 #include "gait/model/model_words.h"
-#include "number_range.h"
+#include "option_kinds.h"
 
 namespace gait::tool {
 
@@ -15,12 +15,6 @@ std::vector<std::string> decoder_names() {
 
 }  // namespace
 
-std::string decoder_name(DecoderKind kind) {
-  for (const auto& [known, word] : decoder_kind_words)
-    if (known == kind) return std::string(word);
-  return "";
-}
-
 void add_decoder(CLI::App& command, std::optional<DecoderKind>& decoder, const std::string& help) {
   command
       .add_option_function<std::string>(
@@ -30,39 +24,29 @@ void add_decoder(CLI::App& command, std::optional<DecoderKind>& decoder, const s
               if (word == name) decoder = kind;
           },
           help)
-      ->check(CLI::IsMember(decoder_names()).description(""))
+      ->check(one_of(decoder_names()))
       ->type_name("viterbi|forward|lag");
 }
 
-void add_play_options(CLI::App& command, PlayerSettings& settings) {
-  add_decoder(command, settings.decoder, "How steps are decoded (the model's own)");
-  command
-      .add_option("--lag", settings.lag,
-                  "Seconds by which --decoder lag decides late (the model's own)")
-      ->check(within(0.0, 5.0))
-      ->type_name("S");
-  command
-      .add_option("--temper", settings.temper,
-                  "Exponent on the evidence of --decoder forward (the model's own)")
-      ->check(within(1e-4, 10.0))
-      ->type_name("X");
-  command
-      .add_option("--strength", settings.strength,
-                  "0: the average walk, 1: this walk, above: a caricature (the model's own)")
-      ->check(within(0.0, 10.0))
-      ->type_name("S");
-  command.add_option("--past", settings.past, "Frames of the past that smooth (the model's own)")
-      ->check(CLI::Range(0, 600))
-      ->type_name("P");
-  command.add_option("--current", settings.current, "Frames handed out at a time")
+void add_play_options(CLI::App& app, PlayerSettings& settings) {
+  add_decoder(app, settings.decoder, "How steps are decoded (the model's own)");
+  add_value(app, "--lag", "S", settings.lag,
+            "Seconds by which --decoder lag decides late (the model's own)")
+      ->check(within(0, 5));
+  add_value(app, "--temper", "X", settings.temper,
+            "Exponent on the evidence of --decoder forward (the model's own)")
+      ->check(within(1e-4, 10));
+  add_value(app, "--strength", "S", settings.strength,
+            "0: the average walk, 1: this walk, above: a caricature (the model's own)")
+      ->check(within(0, 10));
+  add_value(app, "--past", "P", settings.past, "Frames of the past that smooth (the model's own)")
+      ->check(CLI::Range(0, 600));
+  add_value(app, "--current", "C", settings.current, "Frames handed out at a time")
       ->check(CLI::Range(1, 600))
-      ->default_str("1")
-      ->type_name("C");
-  command
-      .add_option("--future", settings.future,
-                  "Frames of the future that smooth, each a frame of delay (the model's own)")
-      ->check(CLI::Range(0, 600))
-      ->type_name("F");
+      ->default_str("1");
+  add_value(app, "--future", "F", settings.future,
+            "Frames of the future that smooth, each a frame of delay (the model's own)")
+      ->check(CLI::Range(0, 600));
 }
 
 }  // namespace gait::tool

@@ -11,11 +11,9 @@
 namespace gait::tool {
 
 // --decoder viterbi|forward|lag.
-void add_decoder(CLI::App& command, std::optional<DecoderKind>& decoder, const std::string& help);
+void add_decoder(CLI::App& app, std::optional<DecoderKind>& decoder, const std::string& help);
 
 // Adds --decoder, --lag, --temper, --strength, --past, --current and --future.
-void add_play_options(CLI::App& command, PlayerSettings& settings);
-
-std::string decoder_name(DecoderKind kind);
+void add_play_options(CLI::App& app, PlayerSettings& settings);
 
 }  // namespace gait::tool

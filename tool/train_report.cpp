@@ -2,8 +2,9 @@
 
 #include <cstdio>
 #include <map>
-#include <nlohmann/json.hpp>
 #include <numbers>
+
+#include "json_report.h"
 
 namespace gait::tool {
 
@@ -160,7 +161,7 @@ void print_json(const TrainReport& report) {
       out["validated"]["calibration_error"] = training.validated_calibration_error;
     }
   }
-  std::puts(out.dump(2, ' ', false, nlohmann::json::error_handler_t::replace).c_str());
+  print_report(out);
 }
 
 }  // namespace gait::tool

@@ -1,7 +1,6 @@
 #include "walk_files.h"
 
 #include <algorithm>
-#include <cctype>
 #include <cstdio>
 #include <map>
 #include <memory>
@@ -10,41 +9,36 @@
 #include <system_error>
 
 #include "commands.h"
+#include "file_ending.h"
 #include "gait/error.h"
 #include "gait/files/label_file.h"
 #include "manifest.h"
 #include "name_pattern.h"
+#include "option_kinds.h"
 
 namespace gait::tool {
 
 namespace fs = std::filesystem;
 
 const char* const label_help =
-    "--label reads a file's name: {style}, {subject} and {speed} (m/s) are kept, {take} is a "
-    "whole\n"
-    "number, {*} anything or nothing, all else stands for itself. Where a name could be read in\n"
-    "several ways, fields are as short as possible from left to right. Without --label, files\n"
-    "named walk_STYLE_TAKE.bvh have their style.\n"
-    "A manifest is a CSV table with the columns file, style, subject, speed (any but file may be\n"
-    "missing); its files are found from its own folder. What it says counts before a name.\n"
-    "A label file beside a clip (same name, .txt or .lab) says when the feet touch.";
+    R"(--label reads a file's name: {style}, {subject} and {speed} (m/s) are kept, {take} is a whole
+number, {*} anything or nothing, all else stands for itself. Where a name could be read in
+several ways, fields are as short as possible from left to right. Without --label, files
+named walk_STYLE_TAKE.bvh have their style.
+A manifest is a CSV table with the columns file, style, subject, speed (any but file may be
+missing); its files are found from its own folder. What it says counts before a name.
+A label file beside a clip (same name, .txt or .lab) says when the feet touch.)";
 
 namespace {
 
 constexpr const char* usual_pattern = "walk_{style}_{take}.bvh";
 
-bool is_bvh(const fs::path& path) {
-  std::string ending = path.extension().string();
-  std::transform(ending.begin(), ending.end(), ending.begin(),
-                 [](unsigned char c) { return static_cast<char>(std::tolower(c)); });
-  return ending == ".bvh";
-}
-
 std::vector<fs::path> bvh_files_in(const fs::path& folder) {
   std::vector<fs::path> files;
   try {
     for (const auto& entry : fs::recursive_directory_iterator(folder))
-      if (is_bvh(entry.path()) && entry.is_regular_file()) files.push_back(entry.path());
+      if (ending_of(entry.path()) == ".bvh" && entry.is_regular_file())
+        files.push_back(entry.path());
   } catch (const fs::filesystem_error& error) {
     throw Error(folder.string() + ": cannot be searched: " + error.code().message());
   }
@@ -162,24 +156,18 @@ std::vector<Contact> contacts_beside(const fs::path& path, const Clip& clip, std
 
 }  // namespace
 
-void add_walk_reading(CLI::App& command, WalkReading& reading) {
-  command.add_option("CLIPS", reading.paths, "BVH files, or folders with some")
-      ->default_str("")
-      ->type_name("");
-  command
-      .add_option("--label", reading.pattern,
-                  "What file names say, e.g. 'walk_{style}_{take}.bvh' (see below)")
-      ->type_name("PATTERN");
-  command
-      .add_option("--manifest", reading.manifest,
-                  "CSV table of style, subject and speed; without CLIPS also of which clips")
-      ->type_name("FILE");
-  command.add_flag("--no-labels", reading.no_labels,
-                   "Find contacts in the motion even where a label file lies beside a clip");
-  command.add_flag("--calibrate", reading.calibrate,
-                   "Accept bones that rest in other directions than the model's, or the first "
-                   "clip's: turn their joints' frames to match");
-  add_clip_reading(command, reading.clip);
+void add_walk_reading(CLI::App& app, WalkReading& reading) {
+  add_argument(app, "CLIPS", reading.paths, "BVH files, or folders with some")->required(false);
+  add_value(app, "--label", "PATTERN", reading.pattern,
+            "What file names say, e.g. 'walk_{style}_{take}.bvh' (see below)");
+  add_value(app, "--manifest", "FILE", reading.manifest,
+            "CSV table of style, subject and speed; without CLIPS also of which clips");
+  app.add_flag("--no-labels", reading.no_labels,
+               "Find contacts in the motion even where a label file lies beside a clip");
+  app.add_flag("--calibrate", reading.calibrate,
+               "Accept bones that rest in other directions than the model's, or the first clip's: "
+               "turn their joints' frames to match");
+  add_clip_reading(app, reading.clip);
 }
 
 WalksRead read_walks(const WalkReading& reading, const std::string& command,

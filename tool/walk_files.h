@@ -23,7 +23,7 @@ struct WalkReading {
 };
 
 // Adds CLIPS_OR_DIRS, --label, --manifest, --no-labels, --calibrate and what reads a clip.
-void add_walk_reading(CLI::App& command, WalkReading& reading);
+void add_walk_reading(CLI::App& app, WalkReading& reading);
 
 // How names are read, for the end of a --help.
 extern const char* const label_help;

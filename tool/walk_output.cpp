@@ -1,20 +1,22 @@
 #include "walk_output.h"
 
-#include "number_range.h"
+#include <numbers>
+
+#include "option_kinds.h"
 
 namespace gait::tool {
 
-void add_walk_output(CLI::App& command, double& turn, std::optional<double>& rate,
-                     std::string& output) {
-  command.add_option("--turn", turn, "Turn on the way, above 0 to the left")
-      ->check(within(-180.0, 180.0))
-      ->type_name("DEG_PER_S");
-  command.add_option("--rate", rate, "Frames per second to write (the model's)")
-      ->check(within(5.0, 240.0))
-      ->type_name("HZ");
-  command.add_option("-o,--output", output, "BVH file to write, in metres")
-      ->required()
-      ->type_name("BVH");
+double WalkOutput::turn_in_radians() const { return turn * (std::numbers::pi / 180); }
+
+void add_walk_output(CLI::App& app, WalkOutput& output) {
+  add_value(app, "--turn", "DEG_PER_S", output.turn, "Turn on the way, above 0 to the left")
+      ->check(within(-180, 180));
+  add_value(app, "--rate", "HZ", output.rate, "Frames per second to write (the model's)")
+      ->check(within(5, 240))
+      ->default_str("");
+  add_output(app, "BVH", output.path, "BVH file to write, in metres");
 }
+
+CLI::Validator walk_seconds() { return within(0.1, 7200); }
 
 }  // namespace gait::tool

@@ -1,17 +1,24 @@
-// What the subcommands that write a walk out of nothing share: its way, its rate and its file.
+// What `synth` and `walk` share, which write a walk that no clip holds: its length, its way, its
+// frame rate and its file.
 #pragma once
 
 #include <CLI/CLI.hpp>
-#include <numbers>
-#include <optional>
 #include <string>
 
 namespace gait::tool {
 
-inline constexpr double degree = std::numbers::pi / 180;
+struct WalkOutput {
+  double turn = 0;   // --turn, degrees per second, above 0 to the left
+  double rate = 0;   // --rate, frames per second; 0: the model's
+  std::string path;  // -o
 
-// `turn`: degrees per second, above 0 to the left. `rate`: none stays the model's.
-void add_walk_output(CLI::App& command, double& turn, std::optional<double>& rate,
-                     std::string& output);
+  double turn_in_radians() const;
+};
+
+// Adds --turn, --rate and -o.
+void add_walk_output(CLI::App& app, WalkOutput& output);
+
+// Checks --seconds, how long to walk.
+CLI::Validator walk_seconds();
 
 }  // namespace gait::tool

@@ -1,7 +1,5 @@
 // Cycle spaces in a model file: kept to the bit, and refused by name when nobody could walk in
 // them.
-#include "gait/model/cycle_space_fields.h"
-
 #include <gtest/gtest.h>
 
 #include <functional>

@@ -178,7 +178,8 @@ int PdRun::process() const {
     if (fs::read_symlink(process.path() / "cwd", unreadable) != folder) continue;
     std::ifstream status(process.path() / "status");
     std::string line;
-    if (std::getline(status, line) && line == "Name:\t" + fs::path(pd_program()).filename().string())
+    if (std::getline(status, line) &&
+        line == "Name:\t" + fs::path(pd_program()).filename().string())
       return std::stoi(process.path().filename());
   }
   return 0;

@@ -70,8 +70,7 @@ Screen::Screen(const Patch& patch) {
   }
   if (!display.ends_with('\n')) return;  // nothing will be seen
   display.pop_back();
-  pd_ = start("env DISPLAY=:" + display +
-              " " GAIT_PD_PRELOAD " " + pd_program() +
+  pd_ = start("env DISPLAY=:" + display + " " GAIT_PD_PRELOAD " " + pd_program() +
               " -noprefs -noaudio -nomidi -stderr -path '" GAIT_PD_FOLDER "' -lib gait -open '" +
               folder_ + "/test.pd' >'" + folder_ + "/log' 2>&1");
 }

@@ -48,6 +48,7 @@ TEST(Info, tells_what_training_put_in) {
               180 / std::numbers::pi * model.body->hinges[0].most, 1e-9);
   EXPECT_EQ(report["spaces"]["steps"], true);
   EXPECT_EQ(report["play"]["decoder"], "viterbi");
+  EXPECT_GT(report["play"]["usual_distance"], 0);
   EXPECT_EQ(report["training"]["regularisation_chosen_by"], "given");
   EXPECT_EQ(report["training"]["clips"].size(), 4u);
 

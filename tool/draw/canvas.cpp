@@ -2,9 +2,12 @@
 
 #include <cairo-svg.h>
 
+#include <cmath>
 #include <numbers>
 
+#include "file_ending.h"
 #include "gait/error.h"
+#include "output_file.h"
 
 namespace gait::tool {
 
@@ -147,6 +150,23 @@ void Canvas::finish(const std::filesystem::path& path) {
 const unsigned char* Canvas::pixels() {
   cairo_surface_flush(surface_.get());
   return cairo_image_surface_get_data(surface_.get());
+}
+
+void write_picture(const std::filesystem::path& path, double width, double height,
+                   const std::function<void(Canvas&)>& draw) {
+  const int columns = static_cast<int>(std::lround(width));
+  const int rows = static_cast<int>(std::lround(height));
+  OutputFile output(path);
+  if (ending_of(path) == ".svg") {
+    Canvas canvas = Canvas::of_svg(output.part(), columns, rows);
+    draw(canvas);
+    canvas.finish(path);
+  } else {
+    Canvas canvas = Canvas::of_pixels(columns, rows);
+    draw(canvas);
+    canvas.write_png(output.part());
+  }
+  output.keep();
 }
 
 }  // namespace gait::tool

@@ -4,6 +4,7 @@
 #include <cairo.h>
 
 #include <filesystem>
+#include <functional>
 #include <memory>
 #include <span>
 #include <string>
@@ -72,5 +73,10 @@ class Canvas {
   std::unique_ptr<cairo_t, Destroy> context_;
   int width_, height_;
 };
+
+// Writes what `draw` draws as SVG where the path ends in .svg, as PNG elsewhere; whole or not at
+// all. Width and height in pixels, rounded. Throws Error when it cannot be drawn or written.
+void write_picture(const std::filesystem::path& path, double width, double height,
+                   const std::function<void(Canvas&)>& draw);
 
 }  // namespace gait::tool

@@ -7,8 +7,6 @@
 #include <set>
 #include <sstream>
 
-#include "output_file.h"
-
 namespace gait::tool {
 
 namespace {
@@ -273,22 +271,11 @@ Marker line_marker(std::size_t line) {
 void fit_x(Panel& panel) { fit(panel.x, panel.series, &Spot::x, 0.02); }
 void fit_y(Panel& panel) { fit(panel.y, panel.series, &Spot::y, 0.07); }
 
-void write_chart(const Chart& chart, const std::string& path, bool svg) {
+void write_chart(const Chart& chart, const std::string& path) {
   const std::vector<const Series*> legend = legend_of(chart);
   const Page page = page_for(chart, legend);
-  const int width = static_cast<int>(std::lround(page.width));
-  const int height = static_cast<int>(std::lround(page.height));
-  OutputFile output(path);
-  if (svg) {
-    Canvas canvas = Canvas::of_svg(output.part(), width, height);
-    draw_chart(canvas, chart, page, legend);
-    canvas.finish(path);
-  } else {
-    Canvas canvas = Canvas::of_pixels(width, height);
-    draw_chart(canvas, chart, page, legend);
-    canvas.write_png(output.part());
-  }
-  output.keep();
+  write_picture(path, page.width, page.height,
+                [&](Canvas& canvas) { draw_chart(canvas, chart, page, legend); });
 }
 
 }  // namespace gait::tool

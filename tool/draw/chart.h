@@ -54,7 +54,7 @@ Marker line_marker(std::size_t line);
 void fit_x(Panel& panel);
 void fit_y(Panel& panel);
 
-// Draws a picture at `path`, .svg or .png as `svg` says. Throws Error when it cannot be written.
-void write_chart(const Chart& chart, const std::string& path, bool svg);
+// Writes the picture, .svg or .png as `path` ends. Throws Error when it cannot be written.
+void write_chart(const Chart& chart, const std::string& path);
 
 }  // namespace gait::tool

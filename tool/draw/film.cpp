@@ -1,14 +1,13 @@
 #include "draw/film.h"
 
 #include <algorithm>
-#include <array>
 #include <cmath>
-#include <cstdio>
 
 #include "draw/canvas.h"
 #include "draw/ffmpeg.h"
-#include "draw/film_strip.h"
+#include "draw/legend.h"
 #include "draw/stick_figure.h"
+#include "number_words.h"
 #include "output_file.h"
 
 namespace gait::tool {
@@ -27,29 +26,16 @@ struct Cell {
   double centre = 0;  // metres right of the walker's own place that stay in the middle
 };
 
-struct Reach {
-  double left = 0, right = 0, low = 0, high = 0;  // metres about the walker's own place
-};
-
-void reach(const WalkView& view, Reach& all) {
-  for (int frame = 0; frame < view.frames; ++frame)
-    for (std::size_t i = 0; i < view.figure.points.size(); ++i) {
-      if (!view.figure.drawn[i]) continue;
-      const Eigen::Vector3d& point = view.point(frame, static_cast<int>(i));
-      const double radius = view.figure.head_centre == static_cast<int>(i) ? view.figure.head_radius
-                                                                           : 0.02 * view.height;
-      all.left = std::min(all.left, point.x() - radius);
-      all.right = std::max(all.right, point.x() + radius);
-      all.low = std::min(all.low, point.y() - radius);
-      all.high = std::max(all.high, point.y() + radius);
-    }
+// Widens `all` to what the view shows in any frame, about the walker's own place.
+void include_all(const WalkView& view, Extent& all) {
+  for (int frame = 0; frame < view.frames; ++frame) all.include(view, frame, 0.02 * view.height);
 }
 
 Cell fit(const WalkView& view, const WalkView* compared, double x, double y, double width,
          double height) {
-  Reach all;
-  reach(view, all);
-  if (compared != nullptr) reach(*compared, all);
+  Extent all{0, 0, 0, 0};
+  include_all(view, all);
+  if (compared != nullptr) include_all(*compared, all);
   Cell cell{x, y, width, height, 1, (all.left + all.right) / 2};
   cell.pixels_per_metre =
       std::min((width - 2 * margin) / std::max(1e-9, all.right - all.left),
@@ -127,9 +113,8 @@ void write_film(const std::vector<WalkView>& views, const WalkView* compared,
     canvas.clear();
     for (std::size_t i = 0; i < views.size(); ++i)
       draw_cell(canvas, views[i], compared, cells[i], frame / rate);
-    std::array<char, 32> clock{};
-    std::snprintf(clock.data(), clock.size(), "%.2f s", frame / rate);
-    canvas.text(width - margin, height - 14, clock.data(), label_size, quiet_ink, Align::right);
+    canvas.text(width - margin, height - 14, in_words("%.2f s", frame / rate), label_size,
+                quiet_ink, Align::right);
     draw_legend(canvas, views.front(), compared, margin, height - 14, width - 2 * margin - 90);
     ffmpeg.add(canvas.pixels());
     progress((frame + 1.0) / frames);

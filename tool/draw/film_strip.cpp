@@ -1,13 +1,15 @@
 #include "draw/film_strip.h"
 
 #include <algorithm>
-#include <array>
 #include <cmath>
-#include <cstdio>
 #include <string>
 #include <utility>
 
+#include "draw/canvas.h"
+#include "draw/legend.h"
 #include "draw/stick_figure.h"
+#include "draw/strip_row.h"
+#include "number_words.h"
 
 namespace gait::tool {
 
@@ -22,6 +24,17 @@ constexpr double ground_room = 58;  // from the ground to the row's end: marks a
 constexpr double row_gap = 26;
 constexpr double legend_room = 44;
 constexpr double mark_size = 12;
+
+struct PageRow {
+  StripRow strip;
+  double pixels_per_metre = 100;
+  double x = 0, title_y = 0, ground_y = 0;  // pixels
+};
+
+struct StripPage {
+  std::vector<PageRow> rows;
+  double width = 0, height = 0, legend_y = 0;  // pixels
+};
 
 // One scale for all, so that who is taller looks taller, unless they are not of a kind.
 std::vector<double> scales(const std::vector<StripRow>& rows) {
@@ -39,25 +52,17 @@ std::vector<double> scales(const std::vector<StripRow>& rows) {
   return own;
 }
 
-std::string in_words(double value, const char* unit, int digits) {
-  std::array<char, 64> text{};
-  std::snprintf(text.data(), text.size(), "%.*f %s", digits, value, unit);
-  return text.data();
-}
-
 std::string facts(const StripRow& row) {
   const WalkView& view = *row.view;
   if (view.frames == 1) return "one frame";
-  std::string words = in_words(view.seconds(), "s", view.seconds() < 10 ? 2 : 1);
+  std::string words = in_words(view.seconds() < 10 ? "%.2f s" : "%.1f s", view.seconds());
   if (row.spread == Spread::by_travel && view.in_metres)
-    words +=
-        ", " +
-        in_words(std::abs(view.travel.back() - view.travel.front()) / view.foreshortening, "m", 2);
+    words += ", " + in_words("%.2f m", std::abs(view.travel.back() - view.travel.front()) /
+                                           view.foreshortening);
   if (row.figures.size() > 1)
     words += ", a figure every " +
-             in_words((row.figures.back().frame - row.figures.front().frame) / view.frame_rate /
-                          static_cast<double>(row.figures.size() - 1),
-                      "s", 2);
+             in_words("%.2f s", (row.figures.back().frame - row.figures.front().frame) /
+                                    view.frame_rate / static_cast<double>(row.figures.size() - 1));
   return words;
 }
 
@@ -68,7 +73,7 @@ void label(Canvas& canvas, double x, double y, const std::string& words) {
               quiet_ink, Align::centre);
 }
 
-void draw_metres(Canvas& canvas, const FilmStripPage::Row& row, double y) {
+void draw_metres(Canvas& canvas, const PageRow& row, double y) {
   const StripRow& strip = row.strip;
   double every = 1;
   const double scale = row.pixels_per_metre * strip.view->foreshortening;
@@ -83,21 +88,21 @@ void draw_metres(Canvas& canvas, const FilmStripPage::Row& row, double y) {
     if (metres < 0 || metres > strip.width) break;
     const double x = row.x + metres * row.pixels_per_metre;
     canvas.line(x, row.ground_y, x, row.ground_y + 7, 1.5, quiet_ink);
-    label(canvas, x, y, in_words(i * every, "m", 0));
+    label(canvas, x, y, in_words("%.0f m", i * every));
   }
 }
 
-void draw_moments(Canvas& canvas, const FilmStripPage::Row& row, double y) {
+void draw_moments(Canvas& canvas, const PageRow& row, double y) {
   const StripRow& strip = row.strip;
   if (strip.figures.size() < 2) return;
   const double spacing = (strip.figures[1].x - strip.figures[0].x) * row.pixels_per_metre;
   const int every = std::max(1, static_cast<int>(std::ceil(74 / std::max(1.0, spacing))));
   for (std::size_t i = 0; i < strip.figures.size(); i += every)
     label(canvas, row.x + strip.figures[i].x * row.pixels_per_metre, y,
-          in_words(strip.figures[i].frame / strip.view->frame_rate, "s", 2));
+          in_words("%.2f s", strip.figures[i].frame / strip.view->frame_rate));
 }
 
-void draw_footprints(Canvas& canvas, const FilmStripPage::Row& row) {
+void draw_footprints(Canvas& canvas, const PageRow& row) {
   const StripRow& strip = row.strip;
   if (strip.figures.size() < 2) return;
   for (const Footprint& footprint : strip.view->footprints) {
@@ -111,7 +116,7 @@ void draw_footprints(Canvas& canvas, const FilmStripPage::Row& row) {
   }
 }
 
-void draw_row(Canvas& canvas, const FilmStripPage::Row& row) {
+void draw_row(Canvas& canvas, const PageRow& row) {
   const StripRow& strip = row.strip;
   const double right = canvas.width() - margin;
   const std::string words = facts(strip);
@@ -139,17 +144,15 @@ void draw_row(Canvas& canvas, const FilmStripPage::Row& row) {
     draw_metres(canvas, row, labels_y);
 }
 
-}  // namespace
-
-FilmStripPage lay_out_page(std::vector<StripRow> rows) {
-  FilmStripPage page;
+StripPage lay_out_page(std::vector<StripRow> rows) {
+  StripPage page;
   const std::vector<double> scale = scales(rows);
   double width = narrowest_page;
   for (std::size_t i = 0; i < rows.size(); ++i)
     width = std::max(width, rows[i].width * scale[i] + 2 * margin);
   double y = margin;
   for (std::size_t i = 0; i < rows.size(); ++i) {
-    FilmStripPage::Row row;
+    PageRow row;
     row.pixels_per_metre = scale[i];
     row.x = rows.size() == 1 || rows[i].figures.size() == 1 ? (width - rows[i].width * scale[i]) / 2
                                                             : margin;
@@ -159,40 +162,18 @@ FilmStripPage lay_out_page(std::vector<StripRow> rows) {
     row.strip = std::move(rows[i]);
     page.rows.push_back(std::move(row));
   }
-  page.width = static_cast<int>(std::lround(width));
+  page.width = width;
   page.legend_y = y;
-  page.height = static_cast<int>(std::lround(y + legend_room));
+  page.height = y + legend_room;
   return page;
 }
 
-void draw_legend(Canvas& canvas, const WalkView& view, const WalkView* compared, double x, double y,
-                 double room) {
-  const double end = x + room;
-  const auto entry = [&](const std::string& word, Colour colour) {
-    if (end - x < 80) return;
-    canvas.line(x + 4, y - 6, x + 30, y - 6, 7, colour);
-    x += 40 + canvas.text(x + 40, y, word, label_size, ink, Align::left, end - x - 40) + 32;
-  };
-  const auto has = [&](Side side) {
-    return std::any_of(view.figure.bones.begin(), view.figure.bones.end(),
-                       [&](const Bone& bone) { return bone.side == side; });
-  };
-  if (has(Side::left)) entry("left", left_colour);
-  if (has(Side::right)) entry("right", right_colour);
-  if (!view.footprints.empty() && end - x > 200) {
-    canvas.mark(x + 10, y - 13, mark_size, left_colour);
-    canvas.mark(x + 24, y - 13, mark_size, right_colour);
-    x += 40 + canvas.text(x + 40, y, "foot touches", label_size, ink) + 32;
-  }
-  if (compared != nullptr) entry(compared->name, compared_colour);
-}
-
-void draw_page(Canvas& canvas, const FilmStripPage& page) {
-  for (const FilmStripPage::Row& row : page.rows) draw_row(canvas, row);
+void draw_page(Canvas& canvas, const StripPage& page) {
+  for (const PageRow& row : page.rows) draw_row(canvas, row);
   // The legend speaks for the row that has most to say.
   const auto rich =
       std::max_element(page.rows.begin(), page.rows.end(), [](const auto& a, const auto& b) {
-        const auto says = [](const FilmStripPage::Row& row) {
+        const auto says = [](const PageRow& row) {
           return 2 * static_cast<int>(row.strip.view->in_metres) +
                  static_cast<int>(!row.strip.view->footprints.empty());
         };
@@ -200,6 +181,16 @@ void draw_page(Canvas& canvas, const FilmStripPage& page) {
       });
   draw_legend(canvas, *rich->strip.view, rich->strip.compared, margin, page.legend_y,
               page.width - 2 * margin);
+}
+
+}  // namespace
+
+void write_film_strip(const std::vector<WalkView>& views, const WalkView* compared, int strobe,
+                      const std::filesystem::path& path) {
+  std::vector<StripRow> rows;
+  for (const WalkView& view : views) rows.push_back(lay_out_row(view, compared, strobe));
+  const StripPage page = lay_out_page(std::move(rows));
+  write_picture(path, page.width, page.height, [&](Canvas& canvas) { draw_page(canvas, page); });
 }
 
 }  // namespace gait::tool

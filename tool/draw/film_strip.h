@@ -2,31 +2,16 @@
 // touch, and how far or how long.
 #pragma once
 
+#include <filesystem>
 #include <vector>
 
-#include "draw/canvas.h"
-#include "draw/strip_row.h"
+#include "draw/walk_view.h"
 
 namespace gait::tool {
 
-// The page's layout in pixels, decided before there is a page.
-struct FilmStripPage {
-  struct Row {
-    StripRow strip;
-    double pixels_per_metre = 100;
-    double x = 0, title_y = 0, ground_y = 0;
-  };
-  std::vector<Row> rows;
-  int width = 0, height = 0;
-  double legend_y = 0;
-};
-
-FilmStripPage lay_out_page(std::vector<StripRow> rows);
-
-void draw_page(Canvas& canvas, const FilmStripPage& page);
-
-// "left", "right" and what is grey, on one line from x on; only those of `view` that are known.
-void draw_legend(Canvas& canvas, const WalkView& view, const WalkView* compared, double x, double y,
-                 double room);
+// Writes one row per view, .svg or .png as `path` ends. `strobe` and `compared` as lay_out_row has
+// them. Throws Error when it cannot be written.
+void write_film_strip(const std::vector<WalkView>& views, const WalkView* compared, int strobe,
+                      const std::filesystem::path& path);
 
 }  // namespace gait::tool

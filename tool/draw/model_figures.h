@@ -10,6 +10,8 @@
 
 namespace gait::tool {
 
+inline constexpr int shown_scores = 4;  // components that a figure of scores shows
+
 // Each throws Error when the model has not what the figure shows, saying how to train one that has.
 
 // Cumulated variance over components, a line per space (T10 fig. 2, G04 fig. 3).

@@ -11,7 +11,6 @@ namespace gait::tool {
 
 namespace {
 
-constexpr int shown_scores = 4;
 constexpr const char* speed_label = "speed V, leg lengths per second";
 
 const std::vector<SpeedSpace>& speeds_of(const Model& model) {

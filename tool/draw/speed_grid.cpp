@@ -2,7 +2,6 @@
 
 #include <algorithm>
 #include <cmath>
-#include <cstdio>
 #include <set>
 
 #include "clip_reader.h"
@@ -10,7 +9,7 @@
 #include "draw/walk_view.h"
 #include "gait/model/body_pose.h"
 #include "gait/offline/planned_walk.h"
-#include "output_file.h"
+#include "number_words.h"
 
 namespace gait::tool {
 
@@ -56,12 +55,6 @@ Cell cell_of(const SpeedWalk& walk, const JointRoles& roles, double degrees) {
     cell.height = std::max(cell.height, point.y() + (head ? cell.view.figure.head_radius : 0));
   }
   return cell;
-}
-
-std::string in_words(const char* format, double value) {
-  char text[48];
-  std::snprintf(text, sizeof text, format, value);
-  return text;
 }
 
 struct Page {
@@ -128,7 +121,7 @@ void draw(Canvas& canvas, const std::vector<Row>& rows, const Page& page) {
 }  // namespace
 
 void write_speed_grid(const std::shared_ptr<const Model>& model, const SpeedGrid& grid,
-                      const std::string& path, bool svg) {
+                      const std::string& path) {
   const PlayModel played(model);
   const JointRoles roles = body_roles(*model->body);
   std::vector<double> legs = grid.leg_lengths;
@@ -151,19 +144,7 @@ void write_speed_grid(const std::shared_ptr<const Model>& model, const SpeedGrid
   }
   print_warnings("render", {remarks.begin(), remarks.end()});
   const Page page = lay_out(rows, grid.speeds.size());
-  const int width = static_cast<int>(std::lround(page.width));
-  const int height = static_cast<int>(std::lround(page.height));
-  OutputFile output(path);
-  if (svg) {
-    Canvas canvas = Canvas::of_svg(output.part(), width, height);
-    draw(canvas, rows, page);
-    canvas.finish(path);
-  } else {
-    Canvas canvas = Canvas::of_pixels(width, height);
-    draw(canvas, rows, page);
-    canvas.write_png(output.part());
-  }
-  output.keep();
+  write_picture(path, page.width, page.height, [&](Canvas& canvas) { draw(canvas, rows, page); });
 }
 
 }  // namespace gait::tool

@@ -19,6 +19,6 @@ struct SpeedGrid {
 // Draws what the speed walker walks, at right contact. Throws Error when the model has no walks
 // over speed. What was clamped goes to stderr as warnings of `gait render`.
 void write_speed_grid(const std::shared_ptr<const Model>& model, const SpeedGrid& grid,
-                      const std::string& path, bool svg);
+                      const std::string& path);
 
 }  // namespace gait::tool

@@ -17,6 +17,7 @@ constexpr double longest_travel = 12;      // more: figures would be too small t
 constexpr double good_distance = 0.2;      // between figures, when it is ours to choose
 constexpr double closest_distance = 0.12;  // what a user may ask for with --strobe
 constexpr double gap = 0.12;               // between figures side by side
+constexpr double half_limb = 0.015;        // half a limb's thickness
 
 // Where the walk begins and ends: standing at either end would pile figures up.
 constexpr double still_share = 0.01;  // of the whole travel
@@ -89,31 +90,11 @@ std::vector<int> along_the_way(const WalkView& view, int strobe) {
   return frames;
 }
 
-struct Extent {
-  double left = std::numeric_limits<double>::max();
-  double right = std::numeric_limits<double>::lowest();
-  double low = 0, high = 0;
-
-  void include(const WalkView& view, int frame) {
-    for (std::size_t i = 0; i < view.figure.points.size(); ++i) {
-      if (!view.figure.drawn[i]) continue;
-      const Eigen::Vector3d& point = view.point(frame, static_cast<int>(i));
-      const double radius = static_cast<int>(i) == view.figure.head_centre
-                                ? view.figure.head_radius
-                                : 0.015 * view.height;  // half a limb's thickness
-      left = std::min(left, point.x() - radius);
-      right = std::max(right, point.x() + radius);
-      low = std::min(low, point.y() - radius);
-      high = std::max(high, point.y() + radius);
-    }
-  }
-};
-
 Extent extent_at(const StripRow& row, int frame) {
   Extent extent;
-  extent.include(*row.view, frame);
+  extent.include(*row.view, frame, half_limb * row.view->height);
   if (row.compared != nullptr && row.compared_frame(frame) >= 0)
-    extent.include(*row.compared, row.compared_frame(frame));
+    extent.include(*row.compared, row.compared_frame(frame), half_limb * row.compared->height);
   return extent;
 }
 

@@ -13,7 +13,6 @@ namespace gait::tool {
 
 namespace {
 
-constexpr int shown_scores = 4;
 constexpr int shown_cycles = 12;  // of each style's walk
 
 const StyleSpace& styles_of(const Model& model) {

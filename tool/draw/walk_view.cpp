@@ -63,6 +63,19 @@ double median(std::vector<double> values) {
 
 }  // namespace
 
+void Extent::include(const WalkView& view, int frame, double half_limb) {
+  for (std::size_t i = 0; i < view.figure.points.size(); ++i) {
+    if (!view.figure.drawn[i]) continue;
+    const bool head = static_cast<int>(i) == view.figure.head_centre;
+    const double radius = head ? view.figure.head_radius : half_limb;
+    const Eigen::Vector3d& point = view.point(frame, static_cast<int>(i));
+    left = std::min(left, point.x() - radius);
+    right = std::max(right, point.x() + radius);
+    low = std::min(low, point.y() - radius);
+    high = std::max(high, point.y() + radius);
+  }
+}
+
 WalkView view_walk(const Clip& clip, const JointRoles& roles, double degrees) {
   WalkView view;
   view.name = std::filesystem::path(clip.name).stem().string();

@@ -4,6 +4,7 @@
 #pragma once
 
 #include <Eigen/Core>
+#include <limits>
 #include <string>
 #include <vector>
 
@@ -39,6 +40,16 @@ struct WalkView {
     return points[static_cast<std::size_t>(frame) * figure.points.size() + index];
   }
   double seconds() const { return frames < 2 ? 0 : (frames - 1) / frame_rate; }
+};
+
+// What figures reach, metres, about the walker's own place on the ground.
+struct Extent {
+  double left = std::numeric_limits<double>::max();
+  double right = std::numeric_limits<double>::lowest();
+  double low = 0, high = 0;
+
+  // Widens it to one frame's figure, whose limbs are `half_limb` thick on either side.
+  void include(const WalkView& view, int frame, double half_limb);
 };
 
 // `clip`: metres, Y up. `degrees`: where the camera stands around the walker, 0 in front of the

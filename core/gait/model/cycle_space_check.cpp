@@ -1,8 +1,9 @@
+#include "gait/model/cycle_space_check.h"
+
 #include <Eigen/Cholesky>
 #include <algorithm>
 #include <cmath>
 
-#include "gait/model/cycle_space_fields.h"
 #include "gait/model/field_check.h"
 
 namespace gait {

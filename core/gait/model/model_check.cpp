@@ -5,7 +5,7 @@
 
 #include "gait/error.h"
 #include "gait/model/covariance_check.h"
-#include "gait/model/cycle_space_fields.h"
+#include "gait/model/cycle_space_check.h"
 #include "gait/model/field_check.h"
 #include "gait/model/model_file.h"
 

@@ -89,10 +89,6 @@ std::vector<double> ModelField::numbers() const { return each<double>(*this, &Mo
 
 std::vector<int> ModelField::integers() const { return each<int>(*this, &ModelField::integer); }
 
-std::vector<std::string> ModelField::texts() const {
-  return each<std::string>(*this, &ModelField::text);
-}
-
 std::vector<Eigen::Index> ModelField::shape(std::size_t dimensions) const {
   const ModelField field = (*this)["shape"];
   std::vector<Eigen::Index> sides;

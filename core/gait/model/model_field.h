@@ -31,7 +31,6 @@ class ModelField {
   const std::string& text() const;
   std::vector<double> numbers() const;
   std::vector<int> integers() const;
-  std::vector<std::string> texts() const;
 
   // Arrays of float64 {"shape": [...], "data": bytes}, the first index fastest. `symmetric` takes
   // the lower triangle, column after column. Their size is what the file really holds.

@@ -2,8 +2,8 @@
 #include <fstream>
 
 #include "gait/error.h"
-#include "gait/model/cycle_space_fields.h"
 #include "gait/model/model_field.h"
+#include "gait/model/model_fields.h"
 #include "gait/model/model_file.h"
 #include "gait/model/model_words.h"
 
@@ -11,7 +11,7 @@ namespace gait {
 
 namespace {
 
-// Models are some megabytes; whoever names a film by mistake need not wait for it.
+// Models are some megabytes. A film that was named by mistake is refused before it is read.
 constexpr std::uintmax_t largest_file = std::uintmax_t{1} << 30;
 
 template <typename Words>
@@ -24,6 +24,112 @@ auto kind_of(const Words& words, const ModelField& field) {
   field.fail("one of " + known + ", found '" + field.text() + "'");
 }
 
+std::vector<double> values(const ModelField& field, std::size_t count) {
+  std::vector<double> values = field.numbers();
+  if (values.size() != count)
+    field.fail(std::to_string(count) + " numbers, found " + std::to_string(values.size()));
+  return values;
+}
+
+// Sets values to what one object of the file holds under their keys. Throws Error naming the field
+// that is missing or of another kind.
+class FieldReader {
+ public:
+  explicit FieldReader(const ModelField& object) : object_(object) {}
+
+  // `context`: what the fields of the value depend on.
+  template <typename Value, typename... Context>
+  void operator()(const char* key, Value& value, const Context&... context) const {
+    read(object_[key], value, context...);
+  }
+
+  template <typename Value>
+  void optional(const char* key, Value& value, bool) const {
+    if (const auto field = object_.find(key)) read(*field, value);
+  }
+
+  void symmetric(const char* key, Eigen::MatrixXd& matrix) const {
+    matrix = object_[key].symmetric();
+  }
+
+  // Checked before what follows: times cannot become frames without it.
+  void frame_rate(const char* key, double& rate) const {
+    const ModelField field = object_[key];
+    rate = field.number();
+    if (rate < slowest_frame_rate || rate > fastest_frame_rate)
+      field.fail("1 to 1000 frames per second, found " + std::to_string(rate));
+  }
+
+  // Seconds back to frames back; they are whole up to rounding.
+  void lags(const char* key, std::vector<int>& lags, double frame_rate) const {
+    for (const ModelField& item : object_[key].items()) {
+      const double frames = item.number() * frame_rate;
+      if (!(frames > 0.5 && frames < 1e6) || std::abs(frames - std::round(frames)) > 1e-6)
+        item.fail("a time of whole frames, found " + std::to_string(frames));
+      lags.push_back(static_cast<int>(std::lround(frames)));
+    }
+  }
+
+  void joints(const char* key, Hinge& hinge) const {
+    const ModelField field = object_[key];
+    const std::vector<int> joints = field.integers();
+    if (joints.size() != 3) field.fail("3 joints, found " + std::to_string(joints.size()));
+    hinge.above = joints[0], hinge.joint = joints[1], hinge.below = joints[2];
+  }
+
+  void joints(const char* key, Body& body) const {
+    std::vector<BodyJoint> joints;
+    (*this)(key, joints);
+    for (BodyJoint& item : joints) {
+      body.skeleton.joints.push_back(std::move(item.joint));
+      body.roles.push_back(item.role);
+      body.references.push_back(item.reference);
+    }
+  }
+
+ private:
+  static void read(const ModelField& field, double& value) { value = field.number(); }
+  static void read(const ModelField& field, int& value) { value = field.integer(); }
+  static void read(const ModelField& field, bool& value) { value = field.truth(); }
+  static void read(const ModelField& field, std::string& value) { value = field.text(); }
+  static void read(const ModelField& field, Eigen::VectorXd& value) { value = field.vector(); }
+  static void read(const ModelField& field, Eigen::MatrixXd& value) { value = field.matrix(); }
+  static void read(const ModelField& field, StreamKind& value) {
+    value = kind_of(stream_kind_words, field);
+  }
+  static void read(const ModelField& field, DecoderKind& value) {
+    value = kind_of(decoder_kind_words, field);
+  }
+  static void read(const ModelField& field, Role& value) {
+    const auto role = role_from_name(field.text());
+    if (!role) field.fail("a joint's role, found '" + field.text() + "'");
+    value = *role;
+  }
+  static void read(const ModelField& field, Eigen::Vector3d& value) {
+    const std::vector<double> xyz = values(field, 3);
+    value = {xyz[0], xyz[1], xyz[2]};
+  }
+  static void read(const ModelField& field, Eigen::Quaterniond& value) {
+    const std::vector<double> wxyz = values(field, 4);
+    value = {wxyz[0], wxyz[1], wxyz[2], wxyz[3]};
+  }
+  template <typename Value>
+  static void read(const ModelField& field, std::optional<Value>& value) {
+    read(field, value.emplace());
+  }
+  template <typename Value, typename... Context>
+  static void read(const ModelField& field, std::vector<Value>& list, const Context&... context) {
+    for (const ModelField& item : field.items()) read(item, list.emplace_back(), context...);
+  }
+  template <typename Part, typename... Context>
+  static void read(const ModelField& field, Part& part, const Context&... context) {
+    const FieldReader reader(field);
+    fields_of(reader, part, context...);
+  }
+
+  const ModelField& object_;
+};
+
 void expect_format(const ModelField& document) {
   if (const auto format = document.find("format"); !format || format->text() != model_file_format)
     document.fail("a gait model; the format is another");
@@ -32,166 +138,6 @@ void expect_format(const ModelField& document) {
   if (version.integer() > model_file_version)
     version.fail("at most " + std::to_string(model_file_version) + ", found " +
                  std::to_string(version.integer()) + ": the model was made by a newer gait");
-}
-
-std::vector<Stream> streams(const ModelField& field) {
-  std::vector<Stream> streams;
-  for (const ModelField& item : field.items())
-    streams.push_back(
-        {item["name"].text(), item["size"].integer(), kind_of(stream_kind_words, item["kind"])});
-  return streams;
-}
-
-// Looked at before everything else: frames from seconds mean nothing without it.
-double frame_rate(const ModelField& field) {
-  const double rate = field.number();
-  if (rate < slowest_frame_rate || rate > fastest_frame_rate)
-    field.fail("1 to 1000 frames per second, found " + std::to_string(rate));
-  return rate;
-}
-
-// Seconds back to frames back; they are whole up to rounding.
-std::vector<int> lags(const ModelField& history, double frame_rate) {
-  std::vector<int> lags;
-  for (const ModelField& item : history.items()) {
-    const double frames = item.number() * frame_rate;
-    if (!(frames > 0.5 && frames < 1e6) || std::abs(frames - std::round(frames)) > 1e-6)
-      item.fail("a time of whole frames, found " + std::to_string(frames));
-    lags.push_back(static_cast<int>(std::lround(frames)));
-  }
-  return lags;
-}
-
-Scaling scaling(const ModelField& field) {
-  return {field["mean"].vector(), field["deviation"].vector()};
-}
-
-// `walks`: with what walks without input need.
-State state(const ModelField& field, bool styles, bool walks) {
-  State state;
-  state.mean = field["mean"].vector();
-  state.covariance = field["covariance"].symmetric();
-  state.stay = field["stay"].number();
-  state.duration = field["duration"].number();
-  state.weight = field["weight"].number();
-  if (walks) {
-    state.trajectory_means = field["trajectory_means"].matrix();
-    state.trajectory_variances = field["trajectory_variances"].vector();
-  }
-  if (styles) {
-    state.style_means = field["style_means"].matrix();
-    state.style_covariance = field["style_covariance"].symmetric();
-  }
-  return state;
-}
-
-Label label(const ModelField& field, bool styles, bool walks) {
-  Label label;
-  label.name = field["name"].text();
-  label.successors = field["successors"].integers();
-  label.duration = field["duration"].number();
-  label.duration_deviation = field["duration_deviation"].number();
-  label.shortest = field["shortest"].number();
-  label.longest = field["longest"].number();
-  if (styles && walks) label.style_durations = field["style_durations"].vector();
-  for (const ModelField& item : field["states"].items())
-    label.states.push_back(state(item, styles, walks));
-  return label;
-}
-
-std::vector<double> values(const ModelField& field, std::size_t count) {
-  std::vector<double> values = field.numbers();
-  if (values.size() != count)
-    field.fail(std::to_string(count) + " numbers, found " + std::to_string(values.size()));
-  return values;
-}
-
-Eigen::Vector3d point(const ModelField& field) {
-  const std::vector<double> xyz = values(field, 3);
-  return {xyz[0], xyz[1], xyz[2]};
-}
-
-Body body(const ModelField& field) {
-  Body body;
-  for (const ModelField& item : field["joints"].items()) {
-    Joint joint{item["name"].text(), item["parent"].integer(), point(item["offset"]), {}};
-    for (const ModelField& tip : item["tips"].items()) joint.tips.push_back(point(tip));
-    body.skeleton.joints.push_back(std::move(joint));
-    const ModelField role = item["role"];
-    const auto known = role_from_name(role.text());
-    if (!known) role.fail("a joint's role, found '" + role.text() + "'");
-    body.roles.push_back(*known);
-    const std::vector<double> wxyz = values(item["reference"], 4);
-    body.references.emplace_back(wxyz[0], wxyz[1], wxyz[2], wxyz[3]);
-  }
-  body.input_joints = field["input_joints"].integers();
-  body.output_joints = field["output_joints"].integers();
-  body.heading_window = field["heading_window"].number();
-  if (const auto hinges = field.find("hinges"))
-    for (const ModelField& item : hinges->items()) {
-      const ModelField joints = item["joints"];
-      const std::vector<int> indices = joints.integers();
-      if (indices.size() != 3) joints.fail("3 joints, found " + std::to_string(indices.size()));
-      body.hinges.push_back({indices[0], indices[1], indices[2], point(item["axis"]),
-                             item["least"].number(), item["most"].number()});
-    }
-  return body;
-}
-
-PlayDefaults play(const ModelField& field) {
-  return {.decoder = kind_of(decoder_kind_words, field["decoder"]),
-          .lag = field["lag"].number(),
-          .temper = field["temper"].number(),
-          .past = field["past"].number(),
-          .future = field["future"].number(),
-          .strength = field["strength"].number(),
-          .style_memory = field["style_memory"].number(),
-          .style_temper = field["style_temper"].number(),
-          .usual_distance = field["usual_distance"].number()};
-}
-
-Training training(const ModelField& field) {
-  return {.date = field["date"].text(),
-          .comment = field["comment"].text(),
-          .clips = field["clips"].texts(),
-          .regularisation = field["regularisation"].number(),
-          .regularisation_chosen_by = field["regularisation_chosen_by"].text(),
-          .log_likelihood = field["log_likelihood"].numbers(),
-          .penalised_log_likelihood = field["penalised_log_likelihood"].numbers(),
-          .validated_error = field["validated_error"].number(),
-          .validated_step_accuracy = field["validated_step_accuracy"].number(),
-          .validated_style_accuracy = field["validated_style_accuracy"].number(),
-          .validated_calibration_error = field["validated_calibration_error"].number(),
-          .synthetic = field["synthetic"].truth()};
-}
-
-Model model_of(const ModelField& document) {
-  expect_format(document);
-  Model model;
-  model.name = document["name"].text();
-  model.frame_rate = frame_rate(document["frame_rate"]);
-  model.inputs = streams(document["inputs"]);
-  model.outputs = streams(document["outputs"]);
-  const ModelField input = document["input"], output = document["output"];
-  model.input = {input["values"].integer(), input["modelled"].integers(),
-                 lags(input["history"], model.frame_rate)};
-  model.output = {output["values"].integer(), output["modelled"].integers()};
-  model.input_scaling = scaling(document["input_scaling"]);
-  model.output_scaling = scaling(document["output_scaling"]);
-  model.output_mean = document["output_mean"].vector();
-  if (const auto field = document.find("input_mean")) model.input_mean = field->vector();
-  model.styles = document["styles"].texts();
-  for (const ModelField& item : document["labels"].items())
-    model.labels.push_back(label(item, !model.styles.empty(), model.input_mean.size() > 0));
-  if (const auto field = document.find("body")) model.body = body(*field);
-  if (const auto field = document.find("style_space")) model.style_space = style_space(*field);
-  if (const auto field = document.find("speed_spaces"))
-    for (const ModelField& item : field->items()) model.speed_spaces.push_back(speed_space(item));
-  if (const auto field = document.find("shared_speed_space"))
-    model.shared_speed_space = cycle_space(*field);
-  model.play = play(document["play"]);
-  model.training = training(document["training"]);
-  return model;
 }
 
 std::vector<std::uint8_t> bytes_of(const std::filesystem::path& path) {
@@ -216,7 +162,11 @@ std::vector<std::uint8_t> bytes_of(const std::filesystem::path& path) {
 Model parse_model(std::span<const std::uint8_t> bytes, const std::string& name) {
   try {
     const CborDocument document = read_cbor(bytes);
-    Model model = model_of(ModelField(document));
+    const ModelField root(document);
+    expect_format(root);
+    Model model;
+    const FieldReader reader(root);
+    fields_of(reader, model);
     check_model(model);
     return model;
   } catch (const Error& error) {

@@ -20,4 +20,12 @@ inline constexpr std::array decoder_kind_words{
     std::pair{DecoderKind::forward, std::string_view("forward")},
     std::pair{DecoderKind::lag, std::string_view("lag")}};
 
+// The word of a kind; empty for a kind that has none.
+template <typename Words, typename Kind>
+constexpr std::string_view word_of(const Words& words, Kind kind) {
+  for (const auto& [known, word] : words)
+    if (known == kind) return word;
+  return {};
+}
+
 }  // namespace gait
