@@ -106,7 +106,7 @@ class Bvh final : public ModelUser {
     if (!voice.message(arguments)) arguments.fail("no such message");
   }
 
-  void take(const SharedModel& model, const SharedModel&) override {
+  void follow(const SharedModel& model) override {
     if (!model->model->body)
       throw Error("model " + model->model->name +
                   " has no body, so [gait.bvh] cannot play clips on it: its streams are plain");
@@ -127,7 +127,6 @@ class Bvh final : public ModelUser {
 }  // namespace
 
 void setup_bvh() {
-  if (!may_register("gait.bvh")) return;
   Class<Bvh>("gait.bvh").bang<&Bvh::bang>().list<&Bvh::list>().anything<&Bvh::anything>();
 }
 

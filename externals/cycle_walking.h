@@ -8,7 +8,7 @@
 #include <span>
 
 #include "gait/motion/steps.h"
-#include "pd/models.h"
+#include "pd/model_player.h"
 
 namespace gait::pd {
 
@@ -16,12 +16,17 @@ class CycleWalking {
  public:
   virtual ~CycleWalking() = default;
 
-  // A walker in this model with the settings as they are now: made anywhere, the function holds
+  // A walker in a model, of a class that only its own kind of walking knows.
+  struct Walker {
+    virtual ~Walker() = default;
+  };
+  // Makes a walker with the settings as they are now. The function may run on any thread: it holds
   // copies of all it needs. It throws Error when the model cannot serve.
-  virtual std::function<std::shared_ptr<void>(const SharedModel&)> prepare() const = 0;
-  // Walks by that walker from now on, at the phase it was at; gives the old one back. Throws Error,
-  // with nothing changed, when settings do not fit the model.
-  virtual std::shared_ptr<void> take(const SharedModel& model, std::shared_ptr<void> walker) = 0;
+  virtual std::function<std::shared_ptr<Walker>(const SharedModel&)> prepare() const = 0;
+  // Walks by that walker from now on, at the phase the old one was at; gives the old one back.
+  // Throws Error, with nothing changed, when settings do not fit the model.
+  virtual std::shared_ptr<Walker> take(const SharedModel& model,
+                                       std::shared_ptr<Walker> walker) = 0;
   // Which space of a model that can serve scores are of.
   using SpaceOf = const CycleSpace& (*)(const Model& model);
   virtual SpaceOf space_of() const = 0;

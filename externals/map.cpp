@@ -4,18 +4,26 @@
 #include "gait/play/map/observation_map.h"
 #include "gait/play/map/observation_message.h"
 #include "objects.h"
-#include "pd/models.h"
-#include "pd/worker.h"
+#include "pd/model_player.h"
 #include "stream_argument.h"
 
 namespace gait::pd {
 
 namespace {
 
-class Map final : public ModelUser {
+// What plays a model here.
+struct Mapping {
+  explicit Mapping(const PlayModel& model)
+      : map(model), message(*model.model), row(static_cast<std::size_t>(message.longest())) {}
+  ObservationMap map;
+  ObservationMessage message;
+  std::vector<float> row;
+};
+
+class Map final : public ModelPlayer<Mapping> {
  public:
   Map(Box& box, const Arguments& arguments)
-      : ModelUser(box, arguments.size() > 0 ? arguments.text(0) : ""), gauss_(box), info_(box) {
+      : ModelPlayer(box, arguments.size() > 0 ? arguments.text(0) : ""), gauss_(box), info_(box) {
     arguments.expect_count(0, 1);
     join();
   }
@@ -30,7 +38,8 @@ class Map final : public ModelUser {
       perf().drop();
       return;
     }
-    const std::shared_ptr<Playing> playing = playing_;  // what is sent may come back and change it
+    const std::shared_ptr<Mapping> playing =
+        this->playing();  // what is sent may come back and change it
     const ObservationMap& mapped = playing->map;
     info_.add(mapped.distance()).send("distance");
     gauss_.add(playing->message.lag()).add(mapped.model().output.values);
@@ -64,11 +73,11 @@ class Map final : public ModelUser {
 
   void reset(const Arguments&) {}  // it remembers nothing but its settings
   void dump(const Arguments&) {
-    if (!playing_) {
+    if (!playing()) {
       for (const Setting& setting : settings_) tell(setting);
       return;
     }
-    const ObservationMap& map = playing_->map;
+    const ObservationMap& map = playing()->map;
     // All as the map has it, so that nothing is said that another setting has undone.
     const float common = map.streams() > 0 ? map.strength(0) : 1.0f;
     info_.add(common).send("strength");
@@ -81,13 +90,13 @@ class Map final : public ModelUser {
     }
     tell({Setting::spread, -1, {map.spread()}});
   }
-  void perf_message(const Arguments&) { perf().report(info_); }
+  void report_perf(const Arguments&) { perf().report(info_); }
   void print(const Arguments&) {
-    if (!playing_) {
+    if (!playing()) {
       post("%s: waiting for %s", box().name(), model_name().c_str());
       return;
     }
-    const ObservationMap& map = playing_->map;
+    const ObservationMap& map = playing()->map;
     post("%s: maps with %s onto %d outputs, strength of the first %g, spread %g", box().name(),
          model_name().c_str(), map.streams(),
          map.streams() > 0 ? static_cast<double>(map.strength(0)) : 1.0,
@@ -104,23 +113,13 @@ class Map final : public ModelUser {
   };
   static constexpr const char* words[] = {"strength", "strength", "bias", "spread"};
 
-  // All that a model needs here and that takes long to make.
-  struct Playing {
-    explicit Playing(const SharedModel& model)
-        : map(*model), message(*model->model), row(static_cast<std::size_t>(message.longest())) {}
-    ObservationMap map;
-    ObservationMessage message;
-    std::vector<float> row;
-  };
-
-  Prepare prepare() override {
-    return [](const SharedModel& model) { return std::make_shared<Playing>(model); };
+  Make make() override {
+    return [](const SharedModel& model) { return std::make_shared<Mapping>(*model); };
   }
 
-  void take(const SharedModel& model, const SharedModel&) override {
-    auto playing = prepared<Playing>();
+  void take(const SharedModel& model, Mapping& fresh) override {
     std::erase_if(settings_, [&](const Setting& setting) {
-      if (apply(playing->map, *model->model, setting)) return false;
+      if (apply(fresh.map, *model->model, setting)) return false;
       const std::string output =
           setting.name.empty() ? std::to_string(setting.stream) : setting.name;
       const std::string line = std::string(box().name()) + ": " + words[setting.kind] +
@@ -129,8 +128,6 @@ class Map final : public ModelUser {
       return true;
     });
     gauss_.reserve(2 + 6 * model->model->output.values);
-    std::swap(playing_, playing);
-    if (playing) Worker::get().free_later(std::move(playing));
   }
   void say_ready() override { info_.add_text(model_name()).send("ready"); }
 
@@ -138,16 +135,16 @@ class Map final : public ModelUser {
   const char* map(const Arguments& arguments) noexcept {
     Perf::Frame frame(perf());
     const auto count = static_cast<std::size_t>(arguments.size());
-    const std::span<float> row(playing_->row.data(), std::min(count, playing_->row.size()));
+    const std::span<float> row(playing()->row.data(), std::min(count, playing()->row.size()));
     const char* wrong = row.size() < count     ? "expected an observation of this model"
                         : !arguments.read(row) ? "expected numbers only"
-                                               : playing_->message.read(row);
+                                               : playing()->message.read(row);
     if (wrong) {
       frame.forget();
       return wrong;
     }
-    const ObservationMessage& message = playing_->message;
-    playing_->map.map(message.states(), message.missing(), message.observation());
+    const ObservationMessage& message = playing()->message;
+    playing()->map.map(message.states(), message.missing(), message.observation());
     return nullptr;
   }
 
@@ -160,7 +157,7 @@ class Map final : public ModelUser {
         setting.stream = arguments.integer(0, 0, 100000);
       if (arguments.is_symbol(0)) setting.name = arguments.symbol(0);
     }
-    if (playing_ && !apply(playing_->map, *model()->model, setting))
+    if (playing() && !apply(playing()->map, *model()->model, setting))
       arguments.fail("expected " + std::to_string(model()->model->outputs[setting.stream].size) +
                      " finite numbers after the output");
     std::erase_if(settings_, [&](const Setting& old) {
@@ -201,14 +198,12 @@ class Map final : public ModelUser {
   }
 
   Outlet gauss_, info_;
-  std::shared_ptr<Playing> playing_;
   std::vector<Setting> settings_;
 };
 
 }  // namespace
 
 void setup_map() {
-  if (!may_register("gait.map")) return;
   Class<Map>("gait.map")
       .message<&Map::obs>("obs")
       .message<&Map::strength>("strength")
@@ -217,10 +212,7 @@ void setup_map() {
       .message<&Map::through>("stream")
       .message<&Map::through>("walking")
       .message<&Map::through>("place")
-      .message<&Map::reset>("reset")
-      .message<&Map::dump>("dump")
-      .message<&Map::perf_message>("perf")
-      .message<&Map::print>("print");
+      .common();
 }
 
 }  // namespace gait::pd

@@ -111,7 +111,7 @@ class ModelBox final : public ModelUser {
     if (!file_.empty()) info_.add(file_).send("read");
   }
   void unknown(const Arguments& arguments) { arguments.fail("no such message"); }
-  void perf_message(const Arguments&) { perf().report(info_); }
+  void report_perf(const Arguments&) { perf().report(info_); }
   void print(const Arguments&) {
     if (!model()) {
       post("gait.model: %s is not there yet", model_name().c_str());
@@ -132,7 +132,6 @@ class ModelBox final : public ModelUser {
     return arguments.is_symbol(i) && arguments.symbol(i).starts_with('-');
   }
 
-  void take(const SharedModel&, const SharedModel&) override {}
   void say_ready() override {
     info_.add_text(model_name()).send("ready");
     ready_.bang();
@@ -215,7 +214,6 @@ class ModelBox final : public ModelUser {
 }  // namespace
 
 void setup_model() {
-  if (!may_register("gait.model")) return;
   Class<ModelBox>("gait.model")
       .bang<&ModelBox::bang>()
       .message<&ModelBox::read>("read")
@@ -223,10 +221,7 @@ void setup_model() {
       .message<&ModelBox::reload>("reload")
       .message<&ModelBox::write>("write")
       .message<&ModelBox::get>("get")
-      .message<&ModelBox::reset>("reset")
-      .message<&ModelBox::dump>("dump")
-      .message<&ModelBox::perf_message>("perf")
-      .message<&ModelBox::print>("print")
+      .common()
       .anything<&ModelBox::unknown>();
 }
 

@@ -94,7 +94,7 @@ class Osc final : public ModelUser, osc::FrameSink {
            !(arguments.is_symbol(0) && arguments.symbol(0).starts_with('-'));
   }
 
-  void take(const SharedModel& shared, const SharedModel&) override {
+  void follow(const SharedModel& shared) override {
     std::vector<std::shared_ptr<OscVoice>> voices;
     for (int i = 0; i < std::max(1, count_); ++i) {
       voices.push_back(std::make_shared<OscVoice>(shared->model, count_ > 0 ? i : -1, settings_));
@@ -309,9 +309,6 @@ class Osc final : public ModelUser, osc::FrameSink {
 
 }  // namespace
 
-void setup_osc() {
-  if (!may_register("gait.osc")) return;
-  Class<Osc>("gait.osc").list<&Osc::list>().anything<&Osc::message>();
-}
+void setup_osc() { Class<Osc>("gait.osc").list<&Osc::list>().anything<&Osc::message>(); }
 
 }  // namespace gait::pd

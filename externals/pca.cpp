@@ -13,10 +13,25 @@ namespace {
 
 constexpr double longest_jump = 60;  // seconds: what `advance` takes at once
 
-class Pca final : public ModelUser {
+// What plays a model here, beside the walker.
+struct Walk {
+  Walk(const SharedModel& model, std::shared_ptr<CycleWalking::Walker> with,
+       const CycleSpace& space)
+      : walker(std::move(with)),
+        values(*model->model->body),
+        projector(space, *model->model->body),
+        own(space, *model->model->body),
+        given(3 * model->model->body->references.size(), 0.0f) {}
+  std::shared_ptr<CycleWalking::Walker> walker;  // until the walking takes it
+  PoseValues values;
+  CycleProjector projector, own;
+  std::vector<float> given;
+};
+
+class Pca final : public ModelPlayer<Walk> {
  public:
   Pca(Box& box, const Arguments& arguments)
-      : ModelUser(box, arguments.size() > 0 ? arguments.text(0) : ""),
+      : ModelPlayer(box, arguments.size() > 0 ? arguments.text(0) : ""),
         cold_(box, this, &take_cold<Pca>),
         pose_(box),
         info_(box) {
@@ -56,14 +71,14 @@ class Pca final : public ModelUser {
   }
   void reset(const Arguments&) {
     if (model()) walking_->reset();
-    if (playing_) playing_->projector.reset(), playing_->own.reset();
+    if (playing()) playing()->projector.reset(), playing()->own.reset();
     leg_sent_ = 0;
   }
   void dump(const Arguments&) {
     walking_->dump(info_);
     info_.add(turn_).send("turn");
   }
-  void perf_message(const Arguments&) { perf().report(info_); }
+  void report_perf(const Arguments&) { perf().report(info_); }
   void print(const Arguments&) {
     if (!model()) {
       post("%s: waiting for %s", box().name(), model_name().c_str());
@@ -84,55 +99,40 @@ class Pca final : public ModelUser {
   void cold(const Arguments& arguments) {
     if (arguments.selector() == "pose") {
       if (!ready_for_frame()) return;
-      if (!arguments.read(playing_->given) || !playing_->projector.add(playing_->given))
+      if (!arguments.read(playing()->given) || !playing()->projector.add(playing()->given))
         slow_error().say([&] {
           return std::string(box().name()) + ": pose: expected " +
-                 std::to_string(playing_->given.size()) + " numbers, got " +
+                 std::to_string(playing()->given.size()) + " numbers, got " +
                  std::to_string(arguments.size());
         });
     } else if (arguments.selector() == "contact") {
       arguments.expect_count(1);
       const std::string foot = arguments.symbol(0);
       if (foot != "right" && foot != "left") arguments.fail_at(0, "right or left");
-      if (playing_ && playing_->projector.contact(foot == "right" ? Foot::right : Foot::left))
-        info_.add(playing_->projector.scores()).send("projected");
+      if (playing() && playing()->projector.contact(foot == "right" ? Foot::right : Foot::left))
+        info_.add(playing()->projector.scores()).send("projected");
     } else {
       arguments.fail("no such message at the right inlet");
     }
   }
 
  private:
-  // All that a model needs here and that takes long to make.
-  struct Playing {
-    Playing(const SharedModel& model, std::shared_ptr<void> with, const CycleSpace& space)
-        : walker(std::move(with)),
-          values(*model->model->body),
-          projector(space, *model->model->body),
-          own(space, *model->model->body),
-          given(3 * model->model->body->references.size(), 0.0f) {}
-    std::shared_ptr<void> walker;
-    PoseValues values;
-    CycleProjector projector, own;
-    std::vector<float> given;
-  };
-
-  Prepare prepare() override {
-    return [make = walking_->prepare(), space = walking_->space_of()](const SharedModel& model) {
-      auto walker = make(model);
-      return std::make_shared<Playing>(model, std::move(walker), space(*model->model));
+  Make make() override {
+    return [prepare = walking_->prepare(), space = walking_->space_of()](const SharedModel& model) {
+      auto walker = prepare(model);
+      return std::make_shared<Walk>(model, std::move(walker), space(*model->model));
     };
   }
 
-  void take(const SharedModel& model, const SharedModel&) override {
-    auto playing = prepared<Playing>();
-    playing->walker = walking_->take(model, std::move(playing->walker));  // the old one
-    pose_.reserve(static_cast<int>(playing->given.size()));
-    info_.reserve(static_cast<int>(playing->own.scores().size()));
-    std::swap(playing_, playing);
-    if (playing) Worker::get().free_later(std::move(playing));
-    if (playing_->walker) Worker::get().free_later(std::move(playing_->walker));
+  void take(const SharedModel& model, Walk& fresh) override {
+    fresh.walker = walking_->take(model, std::move(fresh.walker));  // the old one
+    pose_.reserve(static_cast<int>(fresh.given.size()));
+    info_.reserve(static_cast<int>(fresh.own.scores().size()));
     clock_.set_period(1000 / model->model->frame_rate);
     leg_sent_ = 0;
+  }
+  void taken() override {
+    if (playing()->walker) Worker::get().free_later(std::move(playing()->walker));
   }
   void say_ready() override { info_.add_text(model_name()).send("ready"); }
 
@@ -156,14 +156,14 @@ class Pca final : public ModelUser {
     walking_->advance(seconds);
     // A walker that knows its scores need not be projected.
     const bool known = !walking_->scores().empty();
-    if (!known) playing_->own.add(playing_->values.of(walking_->pose()));
+    if (!known) playing()->own.add(playing()->values.of(walking_->pose()));
     const auto contact = walking_->contact();
     if (!contact) return;
     const char* const foot = *contact == Foot::right ? "right" : "left";
     if (known && *contact == Foot::right)
       info_.add(walking_->scores()).send("scores");
-    else if (!known && playing_->own.contact(*contact))
-      info_.add(playing_->own.scores()).send("scores");
+    else if (!known && playing()->own.contact(*contact))
+      info_.add(playing()->own.scores()).send("scores");
     info_.add(foot).send("step");
     info_.add(foot).send("contact");
   }
@@ -175,13 +175,12 @@ class Pca final : public ModelUser {
       leg_sent_ = leg;
       pose_.add(leg).send("leg");
     }
-    pose_.add(playing_->values.of(walking_->pose())).send("pose");
+    pose_.add(playing()->values.of(walking_->pose())).send("pose");
   }
 
   ColdInlet cold_;
   Outlet pose_, info_;
   std::unique_ptr<CycleWalking> walking_;
-  std::shared_ptr<Playing> playing_;
   Metronome clock_{[this] {
     if (ready_for_frame()) step(1 / model()->model->frame_rate);
   }};
@@ -192,7 +191,6 @@ class Pca final : public ModelUser {
 }  // namespace
 
 void setup_pca() {
-  if (!may_register("gait.pca")) return;
   Class<Pca>("gait.pca")
       .bang<&Pca::bang>()
       .list<&Pca::number>()
@@ -201,10 +199,7 @@ void setup_pca() {
       .message<&Pca::stop>("stop")
       .message<&Pca::phase>("phase")
       .message<&Pca::turn>("turn")
-      .message<&Pca::reset>("reset")
-      .message<&Pca::dump>("dump")
-      .message<&Pca::perf_message>("perf")
-      .message<&Pca::print>("print")
+      .common()
       .anything<&Pca::setting>();
 }
 

@@ -48,7 +48,7 @@ class Phase {
     info_.add(pull_).send("pull");
     info_.add(walking_ ? 1 : 0).send("walking");
   }
-  void perf_message(const Arguments&) { signals_.report(info_); }
+  void report_perf(const Arguments&) { signals_.report(info_); }
   void print(const Arguments&) {
     post("%s: phase %.3f, %.2f steps per second, %s", box_.name(),
          static_cast<double>(clock().phase()), static_cast<double>(clock().cadence()),
@@ -75,7 +75,6 @@ class Phase {
 }  // namespace
 
 void setup_phase() {
-  if (!may_register("gait.phase~")) return;
   Class<Phase>("gait.phase~")
       .message<&Phase::phase>("phase")
       .message<&Phase::cadence>("cadence")
@@ -83,10 +82,7 @@ void setup_phase() {
       .message<&Phase::walking>("walking")
       .message<&Phase::pull>("pull")
       .message<&Phase::tap>("tap")
-      .message<&Phase::reset>("reset")
-      .message<&Phase::dump>("dump")
-      .message<&Phase::perf_message>("perf")
-      .message<&Phase::print>("print")
+      .common()
       .anything<&Phase::unknown>()
       .dsp();
 }

@@ -2,18 +2,17 @@
 #include "gait/play/body/body_stage.h"
 #include "joint_argument.h"
 #include "objects.h"
-#include "pd/models.h"
-#include "pd/worker.h"
+#include "pd/model_player.h"
 #include "stage_setting.h"
 
 namespace gait::pd {
 
 namespace {
 
-class Skeleton final : public ModelUser {
+class Skeleton final : public ModelPlayer<BodyStage> {
  public:
   Skeleton(Box& box, const Arguments& arguments)
-      : ModelUser(box, arguments.size() > 0 ? arguments.text(0) : ""),
+      : ModelPlayer(box, arguments.size() > 0 ? arguments.text(0) : ""),
         cold_(box, this, &take_cold<Skeleton>),
         figure_(box),
         body_(box),
@@ -24,21 +23,22 @@ class Skeleton final : public ModelUser {
 
   void out(const Arguments& arguments) {
     if (!ready_for_frame()) return;
-    if (show_frame(arguments, outputs_, [this] { return stage_->show_outputs(outputs_); })) show();
+    if (show_frame(arguments, outputs_, [this] { return playing()->show_outputs(outputs_); }))
+      show();
   }
   void pose(const Arguments& arguments) {
     if (!ready_for_frame()) return;
-    if (show_frame(arguments, pose_, [this] { return stage_->show_pose(pose_); })) show();
+    if (show_frame(arguments, pose_, [this] { return playing()->show_pose(pose_); })) show();
   }
   // What was measured, to be shown with the outputs that are made from it.
   void cold(const Arguments& arguments) {
     const auto selector = arguments.selector();
     if (selector == "in") {
       if (ready_for_frame())
-        take_frame(arguments, inputs_, [this] { return stage_->store_inputs(inputs_); });
+        take_frame(arguments, inputs_, [this] { return playing()->store_inputs(inputs_); });
     } else if (selector == "pose") {
       if (ready_for_frame())
-        take_frame(arguments, pose_, [this] { return stage_->store_pose(pose_); });
+        take_frame(arguments, pose_, [this] { return playing()->store_pose(pose_); });
     } else if (selector == "root") {
       store_root(arguments);
     } else {
@@ -54,7 +54,7 @@ class Skeleton final : public ModelUser {
       store_root(arguments);
   }
   void setting(const Arguments& arguments) {
-    if (!settings_.take(arguments, stage_.get())) arguments.fail("no such message");
+    if (!settings_.take(arguments, playing().get())) arguments.fail("no such message");
   }
   // [gait.synth] passes it on; who walks alone sends whole poses.
   void stream(const Arguments& arguments) {
@@ -64,41 +64,38 @@ class Skeleton final : public ModelUser {
 
   void resend(const Arguments&) { send_bones(); }
   void reset(const Arguments&) {
-    if (stage_) stage_->reset();
+    if (playing()) playing()->reset();
   }
   void dump(const Arguments&) { settings_.dump(info_); }
-  void perf_message(const Arguments&) { perf().report(info_); }
+  void report_perf(const Arguments&) { perf().report(info_); }
   void print(const Arguments&) {
-    if (!stage_) {
+    if (!playing()) {
       post("%s: waiting for %s", box().name(), model_name().c_str());
       return;
     }
-    const auto& hips = stage_->root().hips;
+    const auto& hips = playing()->root().hips;
     post("%s: %s, %d joints, hips at %.2f %.2f %.2f m", box().name(), model()->model->name.c_str(),
          static_cast<int>(pose_.size() / 3), static_cast<double>(hips.x()),
          static_cast<double>(hips.y()), static_cast<double>(hips.z()));
   }
 
  private:
-  Prepare prepare() override {
+  Make make() override {
     return [](const SharedModel& shared) { return std::make_shared<BodyStage>(shared->model); };
   }
-  void take(const SharedModel& shared, const SharedModel&) override {
-    auto fresh = prepared<BodyStage>();
-    if (stage_) fresh->take_over(*stage_);
-    std::swap(stage_, fresh);
-    if (fresh) Worker::get().free_later(std::move(fresh));
+  void take(const SharedModel& shared, BodyStage& fresh) override {
+    if (playing()) fresh.take_over(*playing());
     const Model& model = *shared->model;
     inputs_.assign(static_cast<std::size_t>(model.input.values), 0);
     outputs_.assign(static_cast<std::size_t>(model.output.values), 0);
-    pose_.assign(stage_->pose().size(), 0);
+    pose_.assign(fresh.pose().size(), 0);
     // Pd takes memory for a word it has not heard yet: not at frame rate.
     for (const char* word : {"bones", "pos", "root", "pose", "energy", "contact", "right", "left",
                              "stride", "joint", "speed"})
       gensym(word);
-    figure_.reserve(static_cast<int>(stage_->positions().size()));
+    figure_.reserve(static_cast<int>(fresh.positions().size()));
     body_.reserve(static_cast<int>(pose_.size()));
-    settings_.apply(*stage_, [this](const char* what) { say_error(this->box(), what); });
+    settings_.apply(fresh, [this](const char* what) { say_error(this->box(), what); });
     bones_due_ = true;
   }
   void say_ready() override {
@@ -132,13 +129,13 @@ class Skeleton final : public ModelUser {
   void store_root(const Arguments& arguments) {
     if (!ready_for_frame()) return;
     take_frame(arguments, root_, [this] {
-      return stage_->store_root({{root_[0], root_[1], root_[2]}, root_[3]});
+      return playing()->store_root({{root_[0], root_[1], root_[2]}, root_[3]});
     });
   }
 
   void send_bones() {
-    if (!stage_) return;
-    for (const auto& [parent, child] : stage_->bones()) figure_.add(parent).add(child);
+    if (!playing()) return;
+    for (const auto& [parent, child] : playing()->bones()) figure_.add(parent).add(child);
     figure_.send("bones");
     bones_due_ = false;
   }
@@ -146,25 +143,24 @@ class Skeleton final : public ModelUser {
   void show() {
     for (const auto& [joint, said] : settings_.reported()) {
       const auto at = static_cast<std::size_t>(3 * joint);
-      info_.add_text(said).add(stage_->speed(joint)).send("speed");
-      info_.add_text(said).add(stage_->positions().subspan(at, 3)).send("joint");
+      info_.add_text(said).add(playing()->speed(joint)).send("speed");
+      info_.add_text(said).add(playing()->positions().subspan(at, 3)).send("joint");
     }
-    info_.add(stage_->energy()).send("energy");
+    info_.add(playing()->energy()).send("energy");
     for (const Foot foot : {Foot::right, Foot::left}) {
-      if (!stage_->touched(foot)) continue;
-      if (const auto stride = stage_->stride(foot)) info_.add(*stride).send("stride");
+      if (!playing()->touched(foot)) continue;
+      if (const auto stride = playing()->stride(foot)) info_.add(*stride).send("stride");
       info_.add(foot == Foot::right ? "right" : "left").send("contact");
     }
-    const RootPlace& root = stage_->root();
+    const RootPlace& root = playing()->root();
     body_.add(root.hips.x()).add(root.hips.y()).add(root.hips.z()).add(root.heading).send("root");
-    body_.add(stage_->pose()).send("pose");
+    body_.add(playing()->pose()).send("pose");
     if (bones_due_) send_bones();
-    figure_.add(stage_->positions()).send("pos");
+    figure_.add(playing()->positions()).send("pos");
   }
 
   ColdInlet cold_;
   Outlet figure_, body_, info_;
-  std::shared_ptr<BodyStage> stage_;
   std::vector<float> inputs_, outputs_, pose_, root_ = std::vector<float>(4);
   bool bones_due_ = false;
   StageSetting settings_;
@@ -173,17 +169,13 @@ class Skeleton final : public ModelUser {
 }  // namespace
 
 void setup_skeleton() {
-  if (!may_register("gait.skeleton")) return;
   Class<Skeleton>("gait.skeleton")
       .message<&Skeleton::out>("out")
       .message<&Skeleton::pose>("pose")
       .message<&Skeleton::root>("root")
       .message<&Skeleton::stream>("stream")
       .message<&Skeleton::resend>("resend")
-      .message<&Skeleton::reset>("reset")
-      .message<&Skeleton::dump>("dump")
-      .message<&Skeleton::perf_message>("perf")
-      .message<&Skeleton::print>("print")
+      .common()
       .anything<&Skeleton::setting>();
 }
 

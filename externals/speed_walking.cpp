@@ -12,29 +12,30 @@ constexpr std::pair<const char*, SpeedLaw> laws[] = {
 
 class SpeedWalking final : public CycleWalking {
  public:
-  std::function<std::shared_ptr<void>(const SharedModel&)> prepare() const override {
-    return [](const SharedModel& model) -> std::shared_ptr<void> {
+  std::function<std::shared_ptr<Walker>(const SharedModel&)> prepare() const override {
+    return [](const SharedModel& model) -> std::shared_ptr<Walker> {
       if (!model->has_speeds())
         throw Error("model " + model->model->name +
                     " has no walks over speed, so [gait.pca speed] cannot walk in it; train it "
                     "with clips of several speeds");
-      return std::make_shared<SpeedWalker>(model->speeds());
+      return std::make_shared<Walking>(model->speeds());
     };
   }
 
-  std::shared_ptr<void> take(const SharedModel& model, std::shared_ptr<void> made) override {
-    auto walker = std::static_pointer_cast<SpeedWalker>(std::move(made));
-    if (!subject_.empty() && walker->set_subject(subject_) == Taken::refused)
-      throw Error(no_subject(*walker, subject_, model->model->name));
-    walker->set_speed(static_cast<float>(speed_));
-    walker->set_cadence(cadence_);
-    if (leg_ > 0) walker->set_leg_length(leg_);
-    walker->set_law(law_);
-    walker->settle();
-    if (walker_) walker->scrub(walker_->phase());
+  std::shared_ptr<Walker> take(const SharedModel& model, std::shared_ptr<Walker> made) override {
+    auto walking = std::static_pointer_cast<Walking>(std::move(made));
+    SpeedWalker& walker = walking->walker;
+    if (!subject_.empty() && walker.set_subject(subject_) == Taken::refused)
+      throw Error(no_subject(walker, subject_, model->model->name));
+    walker.set_speed(static_cast<float>(speed_));
+    walker.set_cadence(cadence_);
+    if (leg_ > 0) walker.set_leg_length(leg_);
+    walker.set_law(law_);
+    walker.settle();
+    if (walking_) walker.scrub(walking_->walker.phase());
     model_ = model;
-    std::swap(walker_, walker);
-    return walker;
+    std::swap(walking_, walking);
+    return walking;
   }
 
   bool set(const Arguments& arguments) override {
@@ -42,23 +43,23 @@ class SpeedWalking final : public CycleWalking {
     if (selector == "speed") {
       arguments.expect_count(1);
       speed_ = arguments.number(0);
-      if (walker_ && walker_->set_speed(static_cast<float>(speed_)) == Taken::clamped)
+      if (walking_ && walking_->walker.set_speed(static_cast<float>(speed_)) == Taken::clamped)
         say_clamped(arguments, "0 to " + number_text(10 / 3.6) +
                                    " m/s (10 km/h), less on legs shorter than 0.73 m");
     } else if (selector == "leg") {
       arguments.expect_count(1);
       const double leg = arguments.number(0, 0, 100);
       leg_ = static_cast<float>(leg);
-      if (!walker_) return true;
+      if (!walking_) return true;
       if (leg_ == 0)
-        walker_->set_own_leg_length();
-      else if (walker_->set_leg_length(leg_) == Taken::clamped)
+        walking_->walker.set_own_leg_length();
+      else if (walking_->walker.set_leg_length(leg_) == Taken::clamped)
         say_clamped(arguments, "0.3 to 1.5 m; 0: the subject's own");
     } else if (selector == "subject") {
       arguments.expect_count(1);
       const std::string subject = arguments.text(0);
-      if (walker_ && walker_->set_subject(subject) == Taken::refused)
-        arguments.fail(no_subject(*walker_, subject, model_->model->name));
+      if (walking_ && walking_->walker.set_subject(subject) == Taken::refused)
+        arguments.fail(no_subject(walking_->walker, subject, model_->model->name));
       subject_ = subject;
     } else if (selector == "law") {
       arguments.expect_count(1);
@@ -66,14 +67,14 @@ class SpeedWalking final : public CycleWalking {
       for (const auto& [word, law] : laws)
         if (name == word) {
           law_ = law;
-          if (walker_) walker_->set_law(law);
+          if (walking_) walking_->walker.set_law(law);
           return true;
         }
       arguments.fail_at(0, "fitted, inman or feet");
     } else if (selector == "cadence") {
       arguments.expect_count(1);
       cadence_ = static_cast<float>(arguments.number(0, 0, 8));
-      if (walker_) walker_->set_cadence(cadence_);
+      if (walking_) walking_->walker.set_cadence(cadence_);
     } else {
       return false;
     }
@@ -89,22 +90,29 @@ class SpeedWalking final : public CycleWalking {
     info.add(cadence_).send("cadence");
   }
 
-  void advance(double seconds) noexcept override { walker_->advance(seconds); }
-  void scrub(double phase) noexcept override { walker_->scrub(phase); }
-  void reset() noexcept override { walker_->reset(); }
-  std::span<const Eigen::Quaternionf> pose() const noexcept override { return walker_->pose(); }
-  double phase() const noexcept override { return walker_->phase(); }
-  float cadence() const noexcept override { return walker_->cadence(); }
-  std::optional<Foot> contact() const noexcept override { return walker_->contact(); }
+  void advance(double seconds) noexcept override { walking_->walker.advance(seconds); }
+  void scrub(double phase) noexcept override { walking_->walker.scrub(phase); }
+  void reset() noexcept override { walking_->walker.reset(); }
+  std::span<const Eigen::Quaternionf> pose() const noexcept override {
+    return walking_->walker.pose();
+  }
+  double phase() const noexcept override { return walking_->walker.phase(); }
+  float cadence() const noexcept override { return walking_->walker.cadence(); }
+  std::optional<Foot> contact() const noexcept override { return walking_->walker.contact(); }
   SpaceOf space_of() const override {
     return [](const Model& model) -> const CycleSpace& {
       return model.shared_speed_space ? *model.shared_speed_space
                                       : model.speed_spaces.front().space;
     };
   }
-  float leg_length() const noexcept override { return walker_->leg_length(); }
+  float leg_length() const noexcept override { return walking_->walker.leg_length(); }
 
  private:
+  struct Walking final : Walker {
+    explicit Walking(std::shared_ptr<const SpeedTables> tables) : walker(std::move(tables)) {}
+    SpeedWalker walker;
+  };
+
   static std::string no_subject(const SpeedWalker& walker, const std::string& subject,
                                 const std::string& model) {
     std::string known;
@@ -118,7 +126,7 @@ class SpeedWalking final : public CycleWalking {
   }
 
   SharedModel model_;
-  std::shared_ptr<SpeedWalker> walker_;
+  std::shared_ptr<Walking> walking_;
   double speed_ = 1.2;  // m/s
   float leg_ = 0, cadence_ = 0;
   std::string subject_;

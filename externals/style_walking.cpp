@@ -14,8 +14,8 @@ constexpr double most_score = 6;  // deviations
 
 class StyleWalking final : public CycleWalking {
  public:
-  std::function<std::shared_ptr<void>(const SharedModel&)> prepare() const override {
-    return [now = settings_](const SharedModel& model) -> std::shared_ptr<void> {
+  std::function<std::shared_ptr<Walker>(const SharedModel&)> prepare() const override {
+    return [now = settings_](const SharedModel& model) -> std::shared_ptr<Walker> {
       if (!model->has_cycles())
         throw Error("model " + model->model->name +
                     " has no space of styles, so [gait.pca style] cannot walk in it; train it from "
@@ -26,7 +26,7 @@ class StyleWalking final : public CycleWalking {
     };
   }
 
-  std::shared_ptr<void> take(const SharedModel& model, std::shared_ptr<void> made) override {
+  std::shared_ptr<Walker> take(const SharedModel& model, std::shared_ptr<Walker> made) override {
     auto walking = std::static_pointer_cast<Walking>(std::move(made));
     if (!(walking->settings == settings_)) {  // told something since it was made
       walking->settings = settings_;
@@ -102,7 +102,7 @@ class StyleWalking final : public CycleWalking {
     }
   };
 
-  struct Walking {
+  struct Walking final : Walker {
     Walking(const Settings& told, const SharedModel& in)
         : settings(told), model(in), walker(*in, told.seed) {
       const Eigen::VectorXd& variances = in->model->style_space->space.variances;

@@ -4,9 +4,8 @@
 #include "gait/error.h"
 #include "label_setting.h"
 #include "objects.h"
-#include "pd/models.h"
+#include "pd/model_player.h"
 #include "pd/ticker.h"
-#include "pd/worker.h"
 #include "synth_setting.h"
 
 namespace gait::pd {
@@ -17,10 +16,10 @@ constexpr double longest_advance = 60;  // seconds at once
 constexpr float longest_lag = 1000;     // frames
 constexpr double frames_in_gap = 3;     // after so many a frame may belong to another motion
 
-class Synth final : public ModelUser {
+class Synth final : public ModelPlayer<Synthesiser> {
  public:
   Synth(Box& box, const Arguments& arguments)
-      : ModelUser(box, arguments.size() > 0 ? arguments.text(0) : ""), out_(box), info_(box) {
+      : ModelPlayer(box, arguments.size() > 0 ? arguments.text(0) : ""), out_(box), info_(box) {
     arguments.expect_count(0, 1);
     join();
   }
@@ -41,7 +40,7 @@ class Synth final : public ModelUser {
     const auto means = std::span<const float>(gauss_).subspan(2, size);
     const auto variances = std::span<const float>(gauss_).subspan(2 + size, size);
     const bool lag_fits = gauss_[0] >= 0 && gauss_[0] <= longest_lag;
-    if (!lag_fits || !synthesiser_->fits(means, variances)) {
+    if (!lag_fits || !playing()->fits(means, variances)) {
       slow_error().say([&] {
         return std::string(box().name()) +
                ": gauss: expected a lag, finite means and positive variances of what moves";
@@ -58,7 +57,7 @@ class Synth final : public ModelUser {
     bool made = false;
     {
       const Perf::Frame frame(perf());
-      made = synthesiser_->push(means, variances, after_gap);
+      made = playing()->push(means, variances, after_gap);
     }
     if (made) show();
   }
@@ -75,14 +74,14 @@ class Synth final : public ModelUser {
   void walking(const Arguments& arguments) {
     arguments.expect_count(1);
     walking_ = arguments.flag(0);
-    if (synthesiser_) synthesiser_->set_walking(walking_);
+    if (playing()) playing()->set_walking(walking_);
     out_.add(arguments.atoms()).send("walking");
   }
   // Where the walk is that the frames come from: it goes on from there.
   void place(const Arguments& arguments) {
     if (!ready_for_frame()) return;
     if (!arguments.read(place_) ||
-        !synthesiser_->set_place(place_[0], place_[1], std::span<const float>(place_).subspan(2)))
+        !playing()->set_place(place_[0], place_[1], std::span<const float>(place_).subspan(2)))
       slow_error().say([&] {
         return std::string(box().name()) + ": place: expected phase, cadence and " +
                std::to_string(place_.size() - 2) + " weights, got " +
@@ -120,7 +119,7 @@ class Synth final : public ModelUser {
     if (delay_sent_) out_.add(*delay_sent_).send("delay");
   }
   void reset(const Arguments&) {
-    if (synthesiser_) synthesiser_->reset(), synthesiser_->set_walking(walking_);
+    if (playing()) playing()->reset(), playing()->set_walking(walking_);
     labels_.clear();
     fed_ = flows_ = lost_ = whole_ = false;
     due_ = 0;
@@ -128,30 +127,30 @@ class Synth final : public ModelUser {
     say_queue();
   }
   void dump(const Arguments&) { settings_.dump(info_); }
-  void perf_message(const Arguments&) { perf().report(info_); }
+  void report_perf(const Arguments&) { perf().report(info_); }
   void print(const Arguments&) {
-    if (!synthesiser_) {
+    if (!playing()) {
       post("%s: waiting for %s", box().name(), model_name().c_str());
       return;
     }
     post("%s: %s, %s, past %d, future %d, %d queued", box().name(), model()->model->name.c_str(),
-         !synthesiser_->alone()  ? "fed"
-         : synthesiser_->walks() ? "walks alone"
-                                 : "rests",
-         synthesiser_->past(), synthesiser_->future(), synthesiser_->walker().queued());
+         !playing()->alone()  ? "fed"
+         : playing()->walks() ? "walks alone"
+                              : "rests",
+         playing()->past(), playing()->future(), playing()->walker().queued());
   }
 
   // Settings, and labels by their names.
   void setting(const Arguments& arguments) {
-    if (settings_.take(arguments, synthesiser_.get())) return;
+    if (settings_.take(arguments, playing().get())) return;
     if (arguments.size() > 0) arguments.fail("no such message");
     queue(arguments, std::string(arguments.selector()));
   }
 
  private:
-  Prepare prepare() override {
+  Make make() override {
     SynthesiserSettings settings;
-    if (synthesiser_) settings = {synthesiser_->past(), synthesiser_->future()};
+    if (playing()) settings = {playing()->past(), playing()->future()};
     return [settings](const SharedModel& shared) {
       if (!shared->has_steps())
         throw Error("model " + shared->model->name +
@@ -160,12 +159,9 @@ class Synth final : public ModelUser {
       return std::make_shared<Synthesiser>(*shared, settings);
     };
   }
-  void take(const SharedModel& shared, const SharedModel&) override {
+  void take(const SharedModel& shared, Synthesiser& fresh) override {
     const Model& model = *shared->model;
-    auto fresh = prepared<Synthesiser>();
-    const bool goes_on = synthesiser_ && fresh->take_over(*synthesiser_);
-    std::swap(synthesiser_, fresh);
-    if (fresh) Worker::get().free_later(std::move(fresh));
+    const bool goes_on = playing() && fresh.take_over(*playing());
     const auto size = static_cast<std::size_t>(model.output.values);
     gauss_.assign(2 + 6 * size, 0);
     place_.assign(2 + model.styles.size(), 0);
@@ -174,23 +170,23 @@ class Synth final : public ModelUser {
          {"delay", "out", "pose", "phase", "cadence", "step", "contact", "queue"})
       gensym(word);
     for (const Label& label : model.labels) gensym(label.name.c_str());
-    out_.reserve(static_cast<int>(std::max(size, synthesiser_->pose().size())));
+    out_.reserve(static_cast<int>(std::max(size, fresh.pose().size())));
     clock_.set_period(1000 / model.frame_rate);
     const auto failed = [this](const char* what) { say_error(this->box(), what); };
-    settings_.apply(*synthesiser_, goes_on, failed);
-    labels_.apply(*synthesiser_, failed);
-    synthesiser_->set_walking(walking_);
+    settings_.apply(fresh, goes_on, failed);
+    labels_.apply(fresh, failed);
+    fresh.set_walking(walking_);
     if (!goes_on) fed_ = lost_ = whole_ = false, delay_sent_.reset();
-    run();
   }
+  void taken() override { run(); }
   void say_ready() override { info_.add_text(model_name()).send("ready"); }
 
   void queue(const Arguments& arguments, const std::string& label) {
-    labels_.queue(arguments, label, synthesiser_.get());
+    labels_.queue(arguments, label, playing().get());
     say_queue();
   }
   void say_queue() {
-    const int queued = synthesiser_ ? synthesiser_->walker().queued() : 0;
+    const int queued = playing() ? playing()->walker().queued() : 0;
     if (queued != queue_sent_) info_.add(queued).send("queue");
     queue_sent_ = queued;
   }
@@ -215,14 +211,14 @@ class Synth final : public ModelUser {
     bool made = false;
     {
       const Perf::Frame frame(perf());
-      made = synthesiser_->go_on();
+      made = playing()->go_on();
     }
     if (made) show();
   }
 
   void show() {
-    const StepWalker& walker = synthesiser_->walker();
-    if (synthesiser_->walks()) {
+    const StepWalker& walker = playing()->walker();
+    if (playing()->walks()) {
       whole_ = true;
       if (const auto label = walker.entered()) {
         const std::string& name = model()->model->labels[static_cast<std::size_t>(*label)].name;
@@ -232,9 +228,9 @@ class Synth final : public ModelUser {
       say_queue();
       info_.add(walker.cadence()).send("cadence");
       info_.add(walker.phase()).send("phase");
-    } else if (!synthesiser_->alone()) {
+    } else if (!playing()->alone()) {
       whole_ = false;
-      const int delay = lag_ + synthesiser_->future();
+      const int delay = lag_ + playing()->future();
       if (delay != delay_sent_) {
         delay_sent_ = delay;
         out_.add(delay).send("delay");
@@ -242,13 +238,12 @@ class Synth final : public ModelUser {
     }
     // Who comes to rest does so with the joints that were shown.
     if (settings_.whole_body().value_or(whole_))
-      out_.add(synthesiser_->pose()).send("pose");
+      out_.add(playing()->pose()).send("pose");
     else
-      out_.add(synthesiser_->outputs()).send("out");
+      out_.add(playing()->outputs()).send("out");
   }
 
   Outlet out_, info_;
-  std::shared_ptr<Synthesiser> synthesiser_;
   std::vector<float> gauss_, place_;
   int lag_ = 0;
   std::optional<int> delay_sent_;
@@ -273,7 +268,6 @@ class Synth final : public ModelUser {
 }  // namespace
 
 void setup_synth() {
-  if (!may_register("gait.synth")) return;
   Class<Synth>("gait.synth")
       .bang<&Synth::bang>()
       .list<&Synth::number>()
@@ -285,10 +279,7 @@ void setup_synth() {
       .message<&Synth::start>("start")
       .message<&Synth::stop>("stop")
       .message<&Synth::resend>("resend")
-      .message<&Synth::reset>("reset")
-      .message<&Synth::dump>("dump")
-      .message<&Synth::perf_message>("perf")
-      .message<&Synth::print>("print")
+      .common()
       .anything<&Synth::setting>();
 }
 

@@ -202,7 +202,7 @@ class Train final : public ModelUser {
     if (recorder_->recording()) end_take();
   }
   void dump(const Arguments& arguments) { list(arguments); }
-  void perf_message(const Arguments&) { perf().report(info_); }
+  void report_perf(const Arguments&) { perf().report(info_); }
   void print(const Arguments&) {
     post("gait.train: %s: %d takes%s%s", model_name().c_str(),
          static_cast<int>(recorder_->takes().size()), recorder_->recording() ? ", recording" : "",
@@ -229,7 +229,6 @@ class Train final : public ModelUser {
     return name;
   }
 
-  void take(const SharedModel&, const SharedModel&) override {}
   void say_ready() override {
     info_.add_text(model_name()).send("ready");
     if (!tell_done_) return;
@@ -384,7 +383,6 @@ void Train::finish(const std::shared_ptr<Learning>& learning) {
 }  // namespace
 
 void setup_train() {
-  if (!may_register("gait.train")) return;
   Class<Train>("gait.train")
       .message<&Train::in>("in")
       .list<&Train::in>()
@@ -397,10 +395,7 @@ void setup_train() {
       .message<&Train::train>("train")
       .message<&Train::cancel>("cancel")
       .message<&Train::write>("write")
-      .message<&Train::reset>("reset")
-      .message<&Train::dump>("dump")
-      .message<&Train::perf_message>("perf")
-      .message<&Train::print>("print")
+      .common()
       .anything<&Train::unknown>();
 }
 

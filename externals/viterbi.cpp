@@ -6,9 +6,8 @@
 #include "listening.h"
 #include "multichannel.h"
 #include "objects.h"
-#include "pd/models.h"
+#include "pd/model_player.h"
 #include "pd/phase_signals.h"
-#include "pd/worker.h"
 #include "signal_input.h"
 #include "single_inputs.h"
 
@@ -22,10 +21,26 @@ bool is_flag(const Arguments& arguments, int i) {
   return arguments.is_symbol(i) && arguments.symbol(i).starts_with('-');
 }
 
-class Viterbi final : public ModelUser {
+// What plays a model here.
+struct Recognising {
+  Recognising(const PlayModel& played, const RecogniserSettings& with)
+      : model(played),
+        live(model, with),
+        settings(with),
+        observation(*model.model),
+        in(static_cast<std::size_t>(model.model->input.values), 0.0f),
+        pose(model.model->body ? 3 * model.model->body->references.size() : 0, 0.0f) {}
+  PlayModel model;
+  LiveRecogniser live;
+  RecogniserSettings settings;
+  ObservationMessage observation;
+  std::vector<float> in, pose;
+};
+
+class Viterbi final : public ModelPlayer<Recognising> {
  public:
   Viterbi(Box& box, const Arguments& arguments)
-      : ModelUser(box, arguments.size() > 0 && !is_flag(arguments, 0) ? arguments.text(0) : ""),
+      : ModelPlayer(box, arguments.size() > 0 && !is_flag(arguments, 0) ? arguments.text(0) : ""),
         signals_(box, [this](int step) { touch(step); }),
         message_(box),
         info_(box) {
@@ -45,7 +60,8 @@ class Viterbi final : public ModelUser {
   void in(const Arguments& arguments) { whole_frame(arguments, false); }
   void pose(const Arguments& arguments) { whole_frame(arguments, true); }
   void list(const Arguments& arguments) {
-    whole_frame(arguments, playing_ && arguments.size() == static_cast<int>(playing_->pose.size()));
+    whole_frame(arguments,
+                playing() && arguments.size() == static_cast<int>(playing()->pose.size()));
   }
 
   template <void (*Set)(const Arguments&, const Model&, InputStream&)>
@@ -59,17 +75,16 @@ class Viterbi final : public ModelUser {
 
   void decoder(const Arguments& arguments) {
     listening_.decoder(arguments);
-    if (playing_ && !listening_.same_recogniser(playing_->recognising))
-      play(std::make_shared<Playing>(*model(), listening_.recognising()), *model()->model);
+    follow_decoder();
   }
   void mask(const Arguments& arguments) {
     listening_.mask(arguments, model() ? model()->model.get() : nullptr);
-    if (playing_) listening_.apply(live(), *model()->model);
+    if (playing()) listening_.apply(live(), *model()->model);
   }
   template <void (Listening::*Set)(const Arguments&)>
   void set(const Arguments& arguments) {
     (listening_.*Set)(arguments);
-    if (playing_) listening_.apply(live(), *model()->model);
+    if (playing()) listening_.apply(live(), *model()->model);
     sender_.set_rate(listening_.rate());
   }
   void resend(const Arguments&) {
@@ -78,16 +93,16 @@ class Viterbi final : public ModelUser {
   }
 
   void reset(const Arguments&) {
-    if (playing_) live().reset();
+    if (playing()) live().reset();
     sender_.reset();
     signals_.clock().reset();
     signals_.clock().set_walking(walking_);
     step_ = style_ = -1;
   }
   void dump(const Arguments&) { listening_.dump(info_); }
-  void perf_message(const Arguments&) { perf().report(info_); }
+  void report_perf(const Arguments&) { perf().report(info_); }
   void print(const Arguments&) {
-    if (!playing_) {
+    if (!playing()) {
       post("%s: waiting for %s", box().name(), model_name().c_str());
       return;
     }
@@ -106,58 +121,48 @@ class Viterbi final : public ModelUser {
   }
 
  private:
-  // All that a model needs here and that takes long to make.
-  struct Playing {
-    Playing(const PlayModel& model, const RecogniserSettings& settings)
-        : live(model, settings),
-          recognising(settings),
-          observation(*model.model),
-          in(static_cast<std::size_t>(model.model->input.values), 0.0f),
-          pose(model.model->body ? 3 * model.model->body->references.size() : 0, 0.0f) {}
-    LiveRecogniser live;
-    RecogniserSettings recognising;
-    ObservationMessage observation;
-    std::vector<float> in, pose;
-  };
-
-  Prepare prepare() override {
+  Make make() override {
     return [settings = listening_.recognising()](const SharedModel& model) {
-      return std::make_shared<Playing>(*model, settings);
+      return std::make_shared<Recognising>(*model, settings);
     };
   }
-  void take(const SharedModel& model, const SharedModel&) override {
-    auto playing = prepared<Playing>();
-    if (!listening_.same_recogniser(playing->recognising))  // told since
-      playing = std::make_shared<Playing>(*model, listening_.recognising());
+  void take(const SharedModel& model, Recognising& fresh) override {
     for (const std::string& unknown : listening_.forget_unknown(*model->model)) {
       const std::string line =
           std::string(box().name()) + ": mask: no input '" + unknown + "' in " + model_name();
       say_error(box(), line.c_str());
     }
-    play(std::move(playing), *model->model);
+    begin(fresh, *model->model);
   }
+  // A decoder that was asked for while the worker made another.
+  void taken() override { follow_decoder(); }
   void say_ready() override { info_.add_text(model_name()).send("ready"); }
 
-  void play(std::shared_ptr<Playing> playing, const Model& learnt) {
-    listening_.apply(playing->live, learnt);
-    message_.reserve(playing->observation.longest());
+  // Recognises as the settings say, where the decoder is another.
+  void follow_decoder() {
+    if (!playing() || listening_.same_recogniser(playing()->settings)) return;
+    auto fresh = std::make_shared<Recognising>(playing()->model, listening_.recognising());
+    begin(*fresh, *fresh->model.model);
+    play(std::move(fresh));
+  }
+  void begin(Recognising& fresh, const Model& learnt) {
+    listening_.apply(fresh.live, learnt);
+    message_.reserve(fresh.observation.longest());
     info_.reserve(static_cast<int>(learnt.styles.size()) + 8);
     signal_input_.set_rate(learnt.frame_rate);
-    signals_.replace(playing->live.recogniser().clock_settings());
+    signals_.replace(fresh.live.recogniser().clock_settings());
     signals_.clock().set_walking(walking_);
     sender_.reset();
     step_ = style_ = -1;
-    std::swap(playing_, playing);
-    if (playing) Worker::get().free_later(std::move(playing));
   }
-  LiveRecogniser& live() { return playing_->live; }
+  LiveRecogniser& live() { return playing()->live; }
 
   double now() const { return clock_gettimesince(begin_) / 1000; }
   double time_of_frame() { return sender_.time_of_arrival(now()); }
 
   void whole_frame(const Arguments& arguments, bool body) {
     if (!ready_for_frame()) return;
-    const std::span<float> values(body ? playing_->pose : playing_->in);
+    const std::span<float> values(body ? playing()->pose : playing()->in);
     const char* const what = arguments.selector().data();
     if (values.empty() || !arguments.read(values)) {
       refuse(what, arguments.size(), body);
@@ -169,8 +174,8 @@ class Viterbi final : public ModelUser {
   }
   void signal_frame(double time, std::span<const float> values) {
     if (!ready_for_frame()) return;
-    const bool body = values.size() != playing_->in.size();
-    if (body && values.size() != playing_->pose.size()) {
+    const bool body = values.size() != playing()->in.size();
+    if (body && values.size() != playing()->pose.size()) {
       refuse("signals", static_cast<int>(values.size()), false);
       return;
     }
@@ -180,11 +185,11 @@ class Viterbi final : public ModelUser {
   void refuse(const char* what, int count, bool body) {
     perf().drop();
     slow_error().say([&] {
-      const std::string in = std::to_string(playing_->in.size()),
-                        pose = std::to_string(playing_->pose.size());
+      const std::string in = std::to_string(playing()->in.size()),
+                        pose = std::to_string(playing()->pose.size());
       const std::string expected = what == std::string_view("in") ? in
                                    : body                         ? pose
-                                   : playing_->pose.empty()       ? in
+                                   : playing()->pose.empty()      ? in
                                                                   : in + " or " + pose;
       return std::string(box().name()) + ": " + what + ": expected " + expected + " numbers, got " +
              std::to_string(count);
@@ -210,8 +215,8 @@ class Viterbi final : public ModelUser {
       tell(true, "stream");
     }
     // What is sent may come back and change what plays here.
-    const std::shared_ptr<Playing> playing = playing_;
-    while (playing == playing_ && next(playing->live)) decided(*playing);
+    const std::shared_ptr<Recognising> now = playing();
+    while (now == playing() && next(now->live)) decided(*now);
   }
   // What it costs is counted, not what others do with what is sent.
   bool next(LiveRecogniser& live) {
@@ -222,8 +227,8 @@ class Viterbi final : public ModelUser {
   }
 
   // Right to left: info, then what goes to the map.
-  void decided(Playing& playing) {
-    const LiveRecogniser& live = playing.live;
+  void decided(Recognising& now) {
+    const LiveRecogniser& live = now.live;
     const Model& learnt = live.recogniser().model();
     const Decision& decision = live.decision();
     signals_.keep_going();
@@ -257,7 +262,7 @@ class Viterbi final : public ModelUser {
       ++told_places_;
       message_.add(decision.phase).add(decision.cadence).add(styles).send("place");
     }
-    message_.add(playing.observation.write(live.recogniser())).send("obs");
+    message_.add(now.observation.write(live.recogniser())).send("obs");
   }
 
   void touch(int step) { info_.add(step % 2 == 0 ? "right" : "left").send("contact"); }
@@ -289,7 +294,6 @@ class Viterbi final : public ModelUser {
   PhaseSignals signals_;
   Outlet message_, info_;
   Listening listening_;
-  std::shared_ptr<Playing> playing_;
   SenderClock sender_;
   SignalInput signal_input_{
       box(), [this](double time, std::span<const float> values) { signal_frame(time, values); }};
@@ -305,7 +309,6 @@ class Viterbi final : public ModelUser {
 }  // namespace
 
 void setup_viterbi() {
-  if (!may_register("gait.viterbi~")) return;
   Class<Viterbi>("gait.viterbi~", multichannel_class)
       .message<&Viterbi::in>("in")
       .message<&Viterbi::pose>("pose")
@@ -323,10 +326,7 @@ void setup_viterbi() {
       .message<&Viterbi::set<&Listening::timeout>>("timeout")
       .message<&Viterbi::set<&Listening::on_lost>>("onlost")
       .message<&Viterbi::resend>("resend")
-      .message<&Viterbi::reset>("reset")
-      .message<&Viterbi::dump>("dump")
-      .message<&Viterbi::perf_message>("perf")
-      .message<&Viterbi::print>("print")
+      .common()
       .dsp();
 }
 

@@ -46,17 +46,19 @@ void take_cold(void* self, const Arguments& arguments) {
   static_cast<T*>(self)->cold(arguments);
 }
 
-// True when no class of that name is registered yet: the same library may be loaded twice, as
-// copies of one file (pd-notes: a class registered again is "overwritten").
+// True when no class of that name is registered yet. The library may be loaded twice, as copies of
+// one file; Pd complains of a class that is registered again, and overwrites it.
 bool may_register(const char* name);
 // Also reachable as gait/NAME, and with its help patch in help_patches/.
 void finish_class(t_class* cls, const char* name, t_newmethod make);
 
+// Registers an object of the library; does nothing when one of that name is registered already.
 template <class T>
 class Class {
  public:
   // `flags`: CLASS_NOINLET, CLASS_MULTICHANNEL (0x10), ...
-  explicit Class(const char* name, int flags = CLASS_DEFAULT) {
+  explicit Class(const char* name, int flags = CLASS_DEFAULT) : fresh_(may_register(name)) {
+    if (!fresh_) return;
     cls_ = class_new(gensym(name), reinterpret_cast<t_newmethod>(&make),
                      reinterpret_cast<t_method>(&destroy), sizeof(Box), flags, A_GIMME, A_NULL);
     finish_class(cls_, name, reinterpret_cast<t_newmethod>(&make));
@@ -64,33 +66,41 @@ class Class {
 
   template <auto Method>
   Class& message(const char* selector) {
-    class_addmethod(cls_, reinterpret_cast<t_method>(&call<Method>), gensym(selector), A_GIMME,
-                    A_NULL);
+    if (fresh_)
+      class_addmethod(cls_, reinterpret_cast<t_method>(&call<Method>), gensym(selector), A_GIMME,
+                      A_NULL);
     return *this;
   }
   // A bang, a list without a selector (a float too), a symbol: they arrive as their own selectors.
   template <auto Method>
   Class& bang() {
-    class_addbang(cls_, reinterpret_cast<t_method>(&call_bang<Method>));
+    if (fresh_) class_addbang(cls_, reinterpret_cast<t_method>(&call_bang<Method>));
     return *this;
   }
   template <auto Method>
   Class& list() {
-    class_addlist(cls_, reinterpret_cast<t_method>(&call<Method>));
+    if (fresh_) class_addlist(cls_, reinterpret_cast<t_method>(&call<Method>));
     return *this;
   }
   // All messages that no other handler takes.
   template <auto Method>
   Class& anything() {
-    class_addanything(cls_, reinterpret_cast<t_method>(&call<Method>));
+    if (fresh_) class_addanything(cls_, reinterpret_cast<t_method>(&call<Method>));
     return *this;
   }
   // void T::dsp(t_signal**), when the DSP graph is made.
   Class& dsp() {
-    class_addmethod(cls_, reinterpret_cast<t_method>(&call_dsp), gensym("dsp"), A_CANT, A_NULL);
+    if (fresh_)
+      class_addmethod(cls_, reinterpret_cast<t_method>(&call_dsp), gensym("dsp"), A_CANT, A_NULL);
     return *this;
   }
-  t_class* pd() const { return cls_; }
+  // The messages that every object has: reset, dump, perf and print.
+  Class& common() {
+    return message<&T::reset>("reset")
+        .template message<&T::dump>("dump")
+        .template message<&T::report_perf>("perf")
+        .template message<&T::print>("print");
+  }
 
  private:
   static void* make(t_symbol* name, int count, t_atom* atoms) {
@@ -130,6 +140,7 @@ class Class {
   }
   static void call_dsp(Box* box, t_signal** signals) { static_cast<T*>(box->self)->dsp(signals); }
 
+  bool fresh_;
   static inline t_class* cls_ = nullptr;
 };
 

@@ -65,19 +65,20 @@ bool ModelUser::ready_for_frame() {
   return false;
 }
 
-void ModelUser::change(const SharedModel& model, std::shared_ptr<void> ready) {
+void ModelUser::change(const SharedModel& model, TakeOver take_over) {
   try {
-    prepared_ = std::move(ready);
-    if (!prepared_)
-      if (const Prepare make = prepare()) prepared_ = make(model);
-    take(model, model_);
+    if (!take_over)
+      if (const Prepare make = prepare()) take_over = make(model);
+    if (take_over)
+      take_over();
+    else
+      follow(model);
     model_ = model;
     said_waiting_ = false;
   } catch (const std::exception& error) {
     const std::string line = std::string(box_.name()) + ": " + error.what();
     say_error(box_, line.c_str());
   }
-  prepared_.reset();
 }
 
 struct Models::Inside {
@@ -129,7 +130,7 @@ struct Models::Loaded {
   struct User {
     ModelUser* user;
     ModelUser::Prepare prepare;
-    std::shared_ptr<void> prepared;
+    ModelUser::TakeOver take_over;
   };
   std::vector<User> users;
 };
@@ -141,7 +142,7 @@ void Models::publish(const std::string& name, const Loaded& loaded) {
   const std::vector<ModelUser*> users = entry.users;
   for (ModelUser* user : users) {
     const auto at = std::ranges::find(loaded.users, user, &Loaded::User::user);
-    user->change(entry.model, at == loaded.users.end() ? nullptr : at->prepared);
+    user->change(entry.model, at == loaded.users.end() ? nullptr : at->take_over);
   }
   for (ModelUser* user : users)
     // What one user sends may make another one go.
@@ -169,7 +170,7 @@ void Models::load(const std::string& name, std::function<SharedModel()> make, bo
         }
         for (Loaded::User& user : loaded->users) {
           try {
-            user.prepared = user.prepare(loaded->model);
+            user.take_over = user.prepare(loaded->model);
           } catch (const std::exception&) {
             // It will be tried again, and said, when the user takes the model.
           }

@@ -42,21 +42,17 @@ class ModelUser {
   // told once what is waited for.
   bool ready_for_frame();
 
-  // What playing a model needs and takes long to make. The function it gives is called on the
-  // worker when there is time, so it must hold copies of all it needs of this box; it may throw
-  // Error. None: nothing takes long.
-  using Prepare = std::function<std::shared_ptr<void>(const SharedModel& model)>;
+  // Plays a model from now on. It runs between two ticks of Pd's thread, so it must be quick. It
+  // throws Error when the model cannot serve; then the console says so, and the model before stays.
+  using TakeOver = std::function<void()>;
+  // Makes what playing a model needs and takes long to make. It may run on the worker, so it holds
+  // copies of all it needs of the box; it may throw Error.
+  using Prepare = std::function<TakeOver(const SharedModel& model)>;
+  // None: the box makes nothing that takes long, and follow() is called instead.
   virtual Prepare prepare() { return {}; }
-  // What prepare() made, while take() runs.
-  template <class T>
-  std::shared_ptr<T> prepared() const {
-    return std::static_pointer_cast<T>(prepared_);
-  }
+  // As a TakeOver.
+  virtual void follow(const SharedModel&) {}
 
-  // Plays this model from now on; nothing comes between two calls but whole ticks. Quick: music
-  // goes on meanwhile. Throws Error when it cannot serve: then it is said, and the one before
-  // stays. `old`: null for the first.
-  virtual void take(const SharedModel& model, const SharedModel& old) = 0;
   // After every user of the name has taken it: `ready NAME` at the info outlet.
   virtual void say_ready() = 0;
 
@@ -66,13 +62,12 @@ class ModelUser {
 
  private:
   friend class Models;
-  // `ready`: made on the worker, else null.
-  void change(const SharedModel& model, std::shared_ptr<void> ready);
+  // `take_over`: made on the worker; empty: it is made here.
+  void change(const SharedModel& model, TakeOver take_over);
 
   Box& box_;
   std::string name_;
   SharedModel model_;
-  std::shared_ptr<void> prepared_;
   bool joined_ = false, said_waiting_ = false;
   Perf perf_;
   SlowError slow_error_;

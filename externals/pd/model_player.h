@@ -1,0 +1,53 @@
+// A box that plays a model through one object, which takes long to make: it is made on the worker,
+// takes the place of the one before between two ticks, and that one is freed on the worker.
+#pragma once
+
+#include <functional>
+#include <memory>
+#include <utility>
+
+#include "pd/models.h"
+#include "pd/worker.h"
+
+namespace gait::pd {
+
+template <class Playing>
+class ModelPlayer : public ModelUser {
+ protected:
+  using ModelUser::ModelUser;
+
+  // Makes what plays a model. It may run on the worker, so it holds copies of the box's settings;
+  // it may throw Error.
+  using Make = std::function<std::shared_ptr<Playing>(const SharedModel& model)>;
+  virtual Make make() = 0;
+  // Brings what was made up to the settings as they are now, and to where the one before is
+  // (playing(), null at first). Throws Error when the model cannot serve.
+  virtual void take(const SharedModel& model, Playing& fresh) = 0;
+  // After playing() has changed.
+  virtual void taken() {}
+
+  // What plays; null before the model is there.
+  const std::shared_ptr<Playing>& playing() const { return playing_; }
+
+  // Plays through `fresh` from now on.
+  void play(std::shared_ptr<Playing> fresh) {
+    std::swap(playing_, fresh);
+    if (fresh) Worker::get().free_later(std::move(fresh));
+  }
+
+ private:
+  Prepare prepare() final {
+    return [this, make = make()](const SharedModel& model) -> TakeOver {
+      // Only the box's own thread follows `this`, and only while the box is there.
+      return [this, model, fresh = make(model)] {
+        take(model, *fresh);
+        play(fresh);
+        taken();
+      };
+    };
+  }
+
+  std::shared_ptr<Playing> playing_;
+};
+
+}  // namespace gait::pd
