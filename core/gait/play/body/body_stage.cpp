@@ -24,16 +24,6 @@ const std::shared_ptr<const Model>& with_body(const std::shared_ptr<const Model>
   return model;
 }
 
-// Thigh and shank, whatever joints a rig has between hip and ankle.
-float leg_length(const Model& model) {
-  const Leg leg = body_roles(*model.body).right;
-  const auto& joints = model.body->skeleton.joints;
-  double length = 0;
-  for (int joint = leg.foot; joint >= 0 && joint != leg.thigh; joint = joints[joint].parent)
-    length += joints[joint].offset.norm();
-  return static_cast<float>(length);
-}
-
 }  // namespace
 
 BodyStage::BodyStage(std::shared_ptr<const Model> model)
@@ -47,8 +37,8 @@ BodyStage::BodyStage(std::shared_ptr<const Model> model)
       foot_lock_(model_->body->skeleton, body_roles(*model_->body), model_->frame_rate),
       meter_(*model_) {
   const Body& body = *model_->body;
-  model_leg_ = std::max(1e-3f, leg_length(*model_));
   const JointRoles roles = body_roles(body);
+  model_leg_ = std::max(1e-3f, static_cast<float>(leg_length(body.skeleton, roles)));
   for (const Leg& leg : {roles.right, roles.left})
     for (const int joint : {leg.thigh, leg.shank, leg.foot})
       leg_joints_.push_back(static_cast<std::size_t>(joint));
