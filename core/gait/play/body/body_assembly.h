@@ -38,7 +38,6 @@ class BodyAssembly {
   const Eigen::VectorXf& values() const noexcept { return shown_; }
   // Whether that was a whole pose, or is still on its way from or to one.
   bool whole() const noexcept { return source_ == Source::whole || !hand_over_.over(); }
-  int values_per_frame() const noexcept { return static_cast<int>(shown_.size()); }
   void reset() noexcept;
 
  private:

@@ -25,7 +25,6 @@ class LabelQueue {
   int size() const noexcept { return count_; }
   // Whether labels follow by themselves when none is queued: the first of the successors.
   void set_auto(bool on) noexcept { auto_ = on; }
-  bool is_auto() const noexcept { return auto_; }
 
   // What follows `current` (none: what comes first); none: nothing does, for now.
   int peek(int current) const noexcept;

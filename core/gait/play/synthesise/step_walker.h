@@ -56,7 +56,6 @@ class StepWalker {
   // The label comes after those queued already, led up to by those that must lie between. See
   // LabelQueue::push.
   bool queue(int label) noexcept { return queue_.push(label, ahead_.label); }
-  void clear_queue() noexcept { queue_.clear(); }
   int queued() const noexcept { return queue_.size(); }
   // Whether labels follow by themselves (on at first); else the walk stands at a label's end.
   void set_auto(bool on) noexcept { queue_.set_auto(on); }
@@ -105,7 +104,6 @@ class StepWalker {
   // The label that began with this frame: of a walk, which foot touched.
   std::optional<int> entered() const noexcept { return entered_; }
   const Eigen::VectorXf& weights() const noexcept { return mix_.weights(); }
-  int lookahead() const noexcept { return trajectory_.delay(); }  // frames
 
  private:
   struct Place {
