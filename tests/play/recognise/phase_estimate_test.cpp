@@ -34,8 +34,8 @@ TEST(PhaseEstimate, the_right_step_is_the_first_half_of_the_cycle_and_the_left_o
   EXPECT_FLOAT_EQ(phase_in(estimator, 2, 0.5f), 0.25f);
   EXPECT_FLOAT_EQ(phase_in(estimator, 4, 0), 0.5f);
   EXPECT_FLOAT_EQ(phase_in(estimator, 7, 0.9f), 0.95f);
-  EXPECT_EQ(estimator.labels_in_cycle(0), 2);
-  EXPECT_NEAR(estimator.mean_cadence(0), 2.5, 1e-5);
+  EXPECT_EQ(estimator.cycle(0).labels, 2);
+  EXPECT_NEAR(estimator.cycle(0).cadence(), 2.5, 1e-5);
 }
 
 TEST(PhaseEstimate, labels_in_any_ring_share_its_cycle_and_others_have_their_own) {
@@ -46,12 +46,12 @@ TEST(PhaseEstimate, labels_in_any_ring_share_its_cycle_and_others_have_their_own
   EXPECT_FLOAT_EQ(phase_in(estimator, 1 * 4, 0.5f), 2.5f / 3);
   for (const int alone : {2, 4, 5}) {
     EXPECT_FLOAT_EQ(phase_in(estimator, alone * 4, 0.25f), 0.25f);
-    EXPECT_EQ(estimator.labels_in_cycle(alone), 1);
-    EXPECT_NEAR(estimator.mean_cadence(alone), 2.5, 1e-5);
+    EXPECT_EQ(estimator.cycle(alone).labels, 1);
+    EXPECT_NEAR(estimator.cycle(alone).cadence(), 2.5, 1e-5);
   }
   for (const int together : {0, 1, 3}) {
-    EXPECT_EQ(estimator.labels_in_cycle(together), 3);
-    EXPECT_NEAR(estimator.mean_cadence(together), 2.5, 1e-5);
+    EXPECT_EQ(estimator.cycle(together).labels, 3);
+    EXPECT_NEAR(estimator.cycle(together).cadence(), 2.5, 1e-5);
   }
 }
 
