@@ -3,6 +3,7 @@
 #include <algorithm>
 
 #include "gait/error.h"
+#include "gait/model/body_pose.h"
 #include "gait/model/fitted_model.h"
 #include "gait/motion/contacts.h"
 #include "gait/motion/kinematics.h"
@@ -29,7 +30,10 @@ class FileReconstruction {
  public:
   FileReconstruction(std::shared_ptr<const Model> model, const BvhFile& file,
                      const BodyFrameOverride& said, FileRoot root, bool calibrate)
-      : model_(std::move(model)), body_(body_of(*model_)), clip_(clip_from_bvh(file)), root_(root) {
+      : model_(std::move(model)),
+        body_(required_body(*model_)),
+        clip_(clip_from_bvh(file)),
+        root_(root) {
     turns_.assign(clip_.skeleton.joints.size(), Eigen::Quaterniond::Identity());
     if (calibrate) turn_rest();
     matched_ = match_joints(body_, clip_.skeleton, file.name,
@@ -55,12 +59,6 @@ class FileReconstruction {
   }
 
  private:
-  static const Body& body_of(const Model& model) {
-    if (!model.body)
-      throw Error("model " + model.name + ": expected a model of a body; its streams are plain");
-    return *model.body;
-  }
-
   // From here on the clip is told by a rig that rests as the model's does; what is written is
   // turned back. Joints above the hips only carry them: they stay as they are.
   void turn_rest() {

@@ -13,7 +13,7 @@
 #include <memory>
 #include <span>
 
-#include "gait/model/model.h"
+#include "gait/model/stream_layout.h"
 #include "gait/play/body/delayed_frames.h"
 #include "gait/play/change/stream_hand_over.h"
 
@@ -42,14 +42,11 @@ class BodyAssembly {
 
  private:
   enum class Source { none, parts, whole };
-  struct Part {  // of a stream
-    int begin = 0, joint = 0;
-  };
 
   void show(Source source) noexcept;
 
   std::shared_ptr<const Model> model_;
-  std::vector<Part> inputs_, outputs_;
+  StreamLayout inputs_, outputs_;
   DelayedFrames measured_;
   StreamHandOver hand_over_;
   int delay_ = 0;

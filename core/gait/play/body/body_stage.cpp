@@ -4,7 +4,6 @@
 #include <cmath>
 #include <numbers>
 
-#include "gait/error.h"
 #include "gait/model/body_pose.h"
 #include "gait/motion/rotation.h"
 
@@ -17,18 +16,11 @@ constexpr float stopping_seconds = 0.2f;
 // After a hand-over its root is less and less gentle.
 constexpr float gentle_seconds = 0.7f;
 
-const std::shared_ptr<const Model>& with_body(const std::shared_ptr<const Model>& model) {
-  if (!model->body)
-    throw Error("model " + model->name +
-                ": expected a model of a body; its streams are plain values");
-  return model;
-}
-
 }  // namespace
 
 BodyStage::BodyStage(std::shared_ptr<const Model> model)
-    : model_(with_body(model)),
-      hips_(body_roles(*model_->body).hips),
+    : model_(std::move(model)),
+      hips_(body_roles(required_body(*model_)).hips),
       period_(static_cast<float>(1 / model_->frame_rate)),
       assembly_(model_),
       roots_(Eigen::VectorXf::Zero(4)),
@@ -42,7 +34,7 @@ BodyStage::BodyStage(std::shared_ptr<const Model> model)
   for (const Leg& leg : {roles.right, roles.left})
     for (const int joint : {leg.thigh, leg.shank, leg.foot})
       leg_joints_.push_back(static_cast<std::size_t>(joint));
-  for (const auto& reference : body.references) references_.push_back(reference.cast<float>());
+  references_ = float_references(body);
   for (const Joint& joint : body.skeleton.joints) {
     offsets_.push_back(joint.offset.cast<float>());
     parents_.push_back(joint.parent);
@@ -136,12 +128,10 @@ void BodyStage::reset() noexcept {
 void BodyStage::make() noexcept {
   roots_.mark();
   values_ = assembly_.values();
-  for (std::size_t joint = 0; joint < pose_.size(); ++joint)
-    pose_[joint] = rotation_from<float>(std::span<const float, 3>(values_.data() + 3 * joint, 3),
-                                        references_[joint]);
+  pose_from<float>(pose(), references_, pose_);
   if (filter_.on()) {
     filter_.apply(pose_);
-    for (std::size_t joint = 0; joint < pose_.size(); ++joint) tell_values(joint);
+    pose_vector<float>(pose_, references_, {values_.data(), 3 * pose_.size()});
   }
   meter_.advance(pose_);
   move();
@@ -182,12 +172,8 @@ void BodyStage::move() noexcept {
 void BodyStage::hold_feet() noexcept {
   foot_lock_.apply(pose_, motion_, heading_, may_lock() && assembly_.whole() ? going_.value() : 0);
   if (!foot_lock_.corrected()) return;
-  for (const std::size_t joint : leg_joints_) tell_values(joint);
-}
-
-void BodyStage::tell_values(std::size_t joint) noexcept {
-  values_.segment<3>(3 * static_cast<Eigen::Index>(joint)) =
-      rotation_vector<float>(references_[joint].conjugate() * pose_[joint]);
+  for (const std::size_t joint : leg_joints_)
+    values_from<float>(pose_[joint], references_[joint], values_.data() + 3 * joint);
 }
 
 void BodyStage::watch_feet() noexcept {

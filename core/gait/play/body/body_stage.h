@@ -102,7 +102,6 @@ class BodyStage {
   bool may_lock() const noexcept { return lock_ && from_ == RootFrom::feet; }
   void move() noexcept;
   void hold_feet() noexcept;
-  void tell_values(std::size_t joint) noexcept;
   void watch_feet() noexcept;
   void place_joints() noexcept;
 

@@ -6,7 +6,6 @@
 
 namespace gait {
 
-inline constexpr double hand_over_seconds = 0.5;  // about one step
 // However the phases lie, nobody waits longer than this for the other.
 inline constexpr double step_patience_seconds = 2;
 
