@@ -351,7 +351,7 @@ TEST(SpeedWalker, walks_alike_whatever_joints_lie_between_hip_and_ankle) {
     for (const float v : {0.5f, 1.5f, 2.5f})
       EXPECT_NEAR(stride_at(split->subjects[i], v), stride_at(tables()->subjects[i], v), 1e-3);
   }
-  SpeedWalker walking(model, split);
+  SpeedWalker walking(split);
   walking.set_subject("tall");
   walking.set_speed(4 / 3.6f);
   walking.settle();
