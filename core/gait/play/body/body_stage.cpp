@@ -13,8 +13,8 @@ namespace {
 
 // Within this time a body comes to a stop, or starts.
 constexpr float stopping_seconds = 0.2f;
-// After a hand-over its root is less and less gentle.
-constexpr float gentle_seconds = 0.7f;
+// Within this time after a whole pose the root stops being gentle, as feet are locked no longer.
+constexpr float unlocking_seconds = 0.7f;
 
 }  // namespace
 
@@ -51,7 +51,8 @@ BodyStage::BodyStage(std::shared_ptr<const Model> model)
       bones_.push_back({joint, body.skeleton.size() + static_cast<int>(tips_.size())});
       tips_.push_back({static_cast<std::size_t>(joint), tip.cast<float>()});
     }
-  pose_ = world_ = references_;
+  pose_ = references_;
+  world_.resize(pose_.size());
   values_ = assembly_.values();
   positions_.assign(3 * (pose_.size() + tips_.size()), 0.0f);
 }
@@ -148,7 +149,7 @@ void BodyStage::move() noexcept {
   heading_ = std::remainder(heading_ + going_.value() * heading_rate_ * period_,
                             2 * std::numbers::pi_v<float>);
   const Eigen::Vector3f before = walked_;
-  gentle_ = assembly_.whole() ? 1 : std::max(0.0f, gentle_ - period_ / gentle_seconds);
+  gentle_ = assembly_.whole() ? 1 : std::max(0.0f, gentle_ - period_ / unlocking_seconds);
   motion_.set_gentle(may_lock() ? gentle_ : 0);
   walked_ = motion_.advance(pose_, heading_);
   if (started_ && from_ == RootFrom::feet) {
@@ -191,25 +192,18 @@ void BodyStage::watch_feet() noexcept {
 
 void BodyStage::place_joints() noexcept {
   for (std::size_t joint = 0; joint < pose_.size(); ++joint) {
-    Eigen::Vector3f place = root_.hips;
-    if (above_[joint]) {  // rigs put empty roots above the hips: on the ground below them
-      place.y() = place_.y();
-      world_[joint].setIdentity();
-    } else if (static_cast<int>(joint) == hips_) {
-      world_[joint] = about_vertical(root_.heading) * pose_[joint];
-    } else {
-      const auto parent = static_cast<std::size_t>(parents_[joint]);
-      const Eigen::Vector3f above(positions_[3 * parent], positions_[3 * parent + 1],
-                                  positions_[3 * parent + 2]);
-      world_[joint] = world_[parent] * pose_[joint];
-      place = above + scale_ * (world_[parent] * offsets_[joint]);
-    }
-    std::copy_n(place.data(), 3, positions_.data() + 3 * joint);
+    Placement<float>& placed = world_[joint];
+    if (above_[joint])  // rigs put empty roots above the hips: on the ground below them
+      placed = {Eigen::Quaternionf::Identity(), {root_.hips.x(), place_.y(), root_.hips.z()}};
+    else if (static_cast<int>(joint) == hips_)
+      placed = {about_vertical(root_.heading) * pose_[joint], root_.hips};
+    else
+      placed = placed_under(world_[parents_[joint]], pose_[joint], offsets_[joint], scale_);
+    std::copy_n(placed.place.data(), 3, positions_.data() + 3 * joint);
   }
   for (std::size_t i = 0; i < tips_.size(); ++i) {
-    const auto& [joint, offset] = tips_[i];
-    const Eigen::Vector3f place =
-        Eigen::Vector3f(positions_.data() + 3 * joint) + scale_ * (world_[joint] * offset);
+    const Placement<float>& joint = world_[tips_[i].joint];
+    const Eigen::Vector3f place = joint.place + scale_ * (joint.rotation * tips_[i].offset);
     std::copy_n(place.data(), 3, positions_.data() + 3 * (pose_.size() + i));
   }
 }

@@ -138,7 +138,8 @@ class BodyStage {
   Eigen::Vector3d path_ = Eigen::Vector3d::Zero();    // of the hips, from the place, unscaled
   Eigen::Vector3f walked_ = Eigen::Vector3f::Zero();  // by the feet, whether it may go or not
 
-  std::vector<Eigen::Quaternionf> pose_, world_;
+  std::vector<Eigen::Quaternionf> pose_;
+  std::vector<Placement<float>> world_;
   Eigen::VectorXf values_;
   std::vector<float> positions_;
   RootPlace root_;
