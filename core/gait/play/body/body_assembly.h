@@ -1,9 +1,9 @@
-// One body from its parts: synthesised output joints with the measured input joints they belong to,
-// or whole poses; whichever came last.
+// One body from its parts: synthesised output joints with the measured input joints that they were
+// made from, or a whole pose; the one that came last is shown.
 //
-// Measured frames wait until the outputs made from them arrive (delay). When whole poses take over
-// from outputs with measured inputs, as when the input is lost and a walker goes on alone, and when
-// that ends, nothing jumps: the difference fades within half a second, the speed goes on.
+// Measured frames are delayed until the outputs made from them arrive. When whole poses take over
+// from parts, as when the input is lost and a walker goes on alone, and when parts take over again,
+// nothing jumps: the change is inertialised (StreamHandOver) over half a second.
 //
 // Values are rotation vectors relative to the model's references (radians), three per joint.
 // Nothing allocates after construction.

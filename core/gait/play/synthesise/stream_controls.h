@@ -1,4 +1,4 @@
-// A player's hands on single streams while they play: scaled about their mean, shifted, or fixed.
+// Controls of single streams while they play: each can be scaled about its mean, shifted, or fixed.
 //
 // A stream is a joint's rotation vector (radians) or plain values in their own unit. Changes arrive
 // within about a step. Nothing allocates after construction.
