@@ -3,6 +3,8 @@
 #include <algorithm>
 #include <vector>
 
+#include "gait/model/stream_layout.h"
+
 namespace gait::pd {
 
 namespace {
@@ -39,15 +41,7 @@ int joint_stream(const Model& model, const Arguments& arguments, int i) {
     return find(names, arguments, i);
   }
   const int joint = joint_index(model, arguments, i);
-  int stream = 0;
-  for (const auto& [streams, joints] : {std::pair(&model.inputs, &model.body->input_joints),
-                                        std::pair(&model.outputs, &model.body->output_joints)}) {
-    auto next = joints->begin();
-    for (const Stream& of : *streams) {
-      if (of.kind == StreamKind::rotation && *next++ == joint) return stream;
-      ++stream;
-    }
-  }
+  if (const int stream = StreamLayout::of_all(model).stream_of(joint); stream >= 0) return stream;
   arguments.fail("joint '" + model.body->skeleton.joints[static_cast<std::size_t>(joint)].name +
                  "' is neither input nor output of " + model.name);
 }

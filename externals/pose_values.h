@@ -10,22 +10,17 @@ namespace gait::pd {
 
 class PoseValues {
  public:
-  explicit PoseValues(const Body& body) : values_(3 * body.references.size()) {
-    for (const Eigen::Quaterniond& reference : body.references) {
-      joints_.push_back(static_cast<int>(joints_.size()));
-      references_.push_back(reference.cast<float>());
-    }
-  }
+  explicit PoseValues(const Body& body)
+      : references_(float_references(body)), values_(3 * references_.size()) {}
 
   // `pose`: local rotations, one per joint of the body. Valid until the next call.
   std::span<const float> of(std::span<const Eigen::Quaternionf> pose) noexcept {
-    pose_vector<float>(pose, references_, joints_, values_);
+    pose_vector<float>(pose, references_, values_);
     return values_;
   }
 
  private:
   std::vector<Eigen::Quaternionf> references_;
-  std::vector<int> joints_;
   std::vector<float> values_;
 };
 

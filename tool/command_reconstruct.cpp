@@ -35,7 +35,7 @@ void reconstruct(const ReconstructOptions& options) {
   print_warnings("reconstruct", file.warnings);
   const ReconstructedFile result =
       reconstruct_file(model, file, said_of_frame(options.reading), options.settings,
-                       options.root == "feet" ? RootFrom::feet : RootFrom::file, options.calibrate);
+                       options.root == "feet" ? FileRoot::feet : FileRoot::file, options.calibrate);
   print_warnings("reconstruct", result.warnings);
   write_bvh(result.file, output.part());
   if (table) write_decisions(result.walk, *model, table->part());

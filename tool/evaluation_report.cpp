@@ -64,10 +64,10 @@ void print_outputs(const Evaluation& evaluation) {
                             "with the average pose of the recognised moment",
                             "with this walk's own way mapped onto it",
                             "in what comes out: the same, smoothed"};
-  for (const Stage stage : stages)
-    print_row("error, " + std::string(stage_name(stage)), "%.2f",
-              evaluation.error(stage, false) * degrees, evaluation.error(stage, true) * degrees,
-              meanings[static_cast<int>(stage)]);
+  for (const Estimate estimate : estimates)
+    print_row("error, " + std::string(estimate_name(estimate)), "%.2f",
+              evaluation.error(estimate, false) * degrees,
+              evaluation.error(estimate, true) * degrees, meanings[static_cast<int>(estimate)]);
   const std::pair<Source, const char*> sources[] = {
       {Source::truth, "truth"}, {Source::mapped, "mapped"}, {Source::synthesised, "synthesised"}};
   for (const auto& [source, name] : sources)
@@ -87,24 +87,26 @@ void print_styles(const Evaluation& evaluation) {
   const auto styles = styles_of(evaluation);
   if (styles.empty()) return;
   std::printf("\nBy style: error in degrees, means over clips\n  %-16s %5s", "", "clips");
-  for (const Stage stage : stages) std::printf(" %12s", std::string(stage_name(stage)).c_str());
+  for (const Estimate estimate : estimates)
+    std::printf(" %12s", std::string(estimate_name(estimate)).c_str());
   std::printf("\n");
   for (const std::string& style : styles) {
     std::printf("  %-16s %5d", style.c_str(), clips_of(evaluation, style));
-    for (const Stage stage : stages)
-      std::printf(" %12.2f", evaluation.error(stage, false, style) * degrees);
+    for (const Estimate estimate : estimates)
+      std::printf(" %12.2f", evaluation.error(estimate, false, style) * degrees);
     std::printf("\n");
   }
 }
 
 void print_joints(const Evaluation& evaluation) {
   std::printf("\nBy joint: error in degrees, means over clips\n  %-22s", "");
-  for (const Stage stage : stages) std::printf(" %12s", std::string(stage_name(stage)).c_str());
+  for (const Estimate estimate : estimates)
+    std::printf(" %12s", std::string(estimate_name(estimate)).c_str());
   std::printf("\n");
   for (std::size_t i = 0; i < evaluation.output_names.size(); ++i) {
     std::printf("  %-22s", evaluation.output_names[i].c_str());
-    for (const Stage stage : stages)
-      std::printf(" %12.2f", evaluation.stream_error(stage, static_cast<int>(i)) * degrees);
+    for (const Estimate estimate : estimates)
+      std::printf(" %12.2f", evaluation.stream_error(estimate, static_cast<int>(i)) * degrees);
     std::printf("%s\n", evaluation.counted[i] ? "" : "  (not in the errors above)");
   }
 }
@@ -133,17 +135,17 @@ ordered_json number(double value) {
 ordered_json both(double clips, double pooled) {
   return {{"clips", number(clips)}, {"pooled", number(pooled)}};
 }
-std::string key_of(Stage stage) {
-  std::string key(stage_name(stage));
+std::string key_of(Estimate estimate) {
+  std::string key(estimate_name(estimate));
   std::replace(key.begin(), key.end(), ' ', '_');
   return key;
 }
 
 ordered_json errors_json(const Evaluation& evaluation, const std::string& style) {
   ordered_json errors;
-  for (const Stage stage : stages)
-    errors[key_of(stage)] = both(evaluation.error(stage, false, style) * degrees,
-                                 evaluation.error(stage, true, style) * degrees);
+  for (const Estimate estimate : estimates)
+    errors[key_of(estimate)] = both(evaluation.error(estimate, false, style) * degrees,
+                                    evaluation.error(estimate, true, style) * degrees);
   return errors;
 }
 
@@ -162,8 +164,8 @@ ordered_json clip_json(const EvaluatedClip& clip, const Evaluation& evaluation) 
   alone.styles = evaluation.styles;
   alone.clips = {clip};
   ordered_json errors;
-  for (const Stage stage : stages)
-    errors[key_of(stage)] = number(alone.error(stage, false) * degrees);
+  for (const Estimate estimate : estimates)
+    errors[key_of(estimate)] = number(alone.error(estimate, false) * degrees);
   return {{"clip", clip.name},
           {"style", clip.style},
           {"recognised_style",
@@ -215,9 +217,9 @@ void print_json(const Evaluation& evaluation, const Model& model) {
   for (std::size_t i = 0; i < evaluation.output_names.size(); ++i) {
     const int stream = static_cast<int>(i);
     ordered_json errors;
-    for (const Stage stage : stages)
-      errors[key_of(stage)] = both(evaluation.stream_error(stage, stream, false) * degrees,
-                                   evaluation.stream_error(stage, stream, true) * degrees);
+    for (const Estimate estimate : estimates)
+      errors[key_of(estimate)] = both(evaluation.stream_error(estimate, stream, false) * degrees,
+                                      evaluation.stream_error(estimate, stream, true) * degrees);
     joints[evaluation.output_names[i]] = {{"counted", bool(evaluation.counted[i])},
                                           {"output_error_deg", errors}};
   }

@@ -30,9 +30,10 @@ TEST(Evaluation, each_stage_adds_something) {
   const Evaluation& all = evaluation();
   ASSERT_EQ(all.clips.size(), 3u);
   for (const bool pooled : {false, true}) {
-    EXPECT_GT(all.error(Stage::mean_pose, pooled), all.error(Stage::state_means, pooled));
-    EXPECT_GT(all.error(Stage::state_means, pooled), all.error(Stage::mapped, pooled));
-    EXPECT_LT(all.error(Stage::synthesised, pooled), all.error(Stage::mapped, pooled) + 0.001);
+    EXPECT_GT(all.error(Estimate::mean_pose, pooled), all.error(Estimate::state_means, pooled));
+    EXPECT_GT(all.error(Estimate::state_means, pooled), all.error(Estimate::mapped, pooled));
+    EXPECT_LT(all.error(Estimate::synthesised, pooled),
+              all.error(Estimate::mapped, pooled) + 0.001);
     EXPECT_GT(all.step_accuracy(pooled), 0.9);
   }
   for (const EvaluatedClip& clip : all.clips) {
@@ -55,8 +56,8 @@ TEST(Evaluation, means_over_clips_and_frames_are_what_they_say) {
     sum += joints / counted;
     frames += clip.frames;
   }
-  EXPECT_NEAR(all.error(Stage::mapped, false), over_clips, 1e-12);
-  EXPECT_NEAR(all.error(Stage::mapped, true), sum / frames, 1e-12);
+  EXPECT_NEAR(all.error(Estimate::mapped, false), over_clips, 1e-12);
+  EXPECT_NEAR(all.error(Estimate::mapped, true), sum / frames, 1e-12);
   int hips = 0;
   for (std::size_t i = 0; i < all.counted.size(); ++i) hips += !all.counted[i];
   EXPECT_EQ(hips, 1) << "the hips are not counted";
@@ -73,8 +74,8 @@ TEST(Evaluation, counts_styles_that_the_model_knows) {
               all.confusion.diagonal().sum() / static_cast<double>(all.confusion.sum()), 1e-12);
   EXPECT_GT(all.style_accuracy(false), 0.8);
   EXPECT_EQ(all.style_accuracy_of_clips(), 1);
-  EXPECT_TRUE(std::isnan(all.error(Stage::mapped, false, "no such style")));
-  EXPECT_GT(all.error(Stage::mapped, false, "sad"), 0);
+  EXPECT_TRUE(std::isnan(all.error(Estimate::mapped, false, "no such style")));
+  EXPECT_GT(all.error(Estimate::mapped, false, "sad"), 0);
   EXPECT_GE(all.calibration_error, 0);
   EXPECT_LE(all.calibration_error, 1);
 }
@@ -100,7 +101,7 @@ TEST(Evaluation, errors_are_those_of_a_sequence_played_by_hand) {
   }
   const double frames = played.end - played.begin;
   EXPECT_NEAR(one.step_accuracy(true), right / frames, 1e-12);
-  EXPECT_NEAR(one.stream_error(Stage::synthesised, stream), knee / frames, 1e-9);
+  EXPECT_NEAR(one.stream_error(Estimate::synthesised, stream), knee / frames, 1e-9);
 }
 
 TEST(Evaluation, skips_clips_without_steps_and_says_so) {

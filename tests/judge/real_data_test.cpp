@@ -20,7 +20,9 @@ Evaluation learn_and_judge(const std::vector<Walk>& seen, const std::vector<Walk
   return evaluate(std::make_shared<const Model>(std::move(selected.model)), unseen, {});
 }
 
-double error(const Evaluation& judged, Stage stage) { return judged.error(stage, false) * degrees; }
+double error(const Evaluation& judged, Estimate estimate) {
+  return judged.error(estimate, false) * degrees;
+}
 
 void record(const Evaluation& judged) {
   const auto note = [](const char* name, double value) {
@@ -30,8 +32,8 @@ void record(const Evaluation& judged) {
   note("step_accuracy", judged.step_accuracy(false));
   note("step_accuracy_pooled", judged.step_accuracy(true));
   note("style_accuracy", judged.style_accuracy(false));
-  for (const Stage stage : stages)
-    note(("error_" + std::string(stage_name(stage))).c_str(), error(judged, stage));
+  for (const Estimate estimate : estimates)
+    note(("error_" + std::string(estimate_name(estimate))).c_str(), error(judged, estimate));
   note("path_ratio", judged.path_ratio(false));
 }
 
@@ -51,10 +53,10 @@ TEST(RealDataSlow, five_states_recognise_steps_and_styles_and_each_stage_comes_c
   EXPECT_GE(judged.step_accuracy(false), 0.955);
   EXPECT_GE(judged.step_accuracy(true), 0.95);
   EXPECT_GE(judged.style_accuracy(false), 0.97);
-  EXPECT_GT(error(judged, Stage::mean_pose), error(judged, Stage::state_means));
-  EXPECT_GT(error(judged, Stage::state_means), error(judged, Stage::mapped));
-  EXPECT_GT(error(judged, Stage::mapped), error(judged, Stage::synthesised));
-  EXPECT_LE(error(judged, Stage::synthesised), 3.95)
+  EXPECT_GT(error(judged, Estimate::mean_pose), error(judged, Estimate::state_means));
+  EXPECT_GT(error(judged, Estimate::state_means), error(judged, Estimate::mapped));
+  EXPECT_GT(error(judged, Estimate::mapped), error(judged, Estimate::synthesised));
+  EXPECT_LE(error(judged, Estimate::synthesised), 3.95)
       << "nearest neighbours with history: 4.56, ridge regression with history: 5.01";
 }
 
@@ -63,8 +65,8 @@ TEST(RealDataSlow, the_default_is_closer_still_and_half_as_jerky_as_the_mapping)
   const Evaluation judged = learn_and_judge(real_walks("bandai-namco-2", learnt_from, bandai_style),
                                             real_walks("bandai-namco-2", judged_on, bandai_style));
   record(judged);
-  EXPECT_LE(error(judged, Stage::synthesised), 3.75);
-  EXPECT_LE(error(judged, Stage::synthesised), error(judged, Stage::mapped) + 0.05);
+  EXPECT_LE(error(judged, Estimate::synthesised), 3.75);
+  EXPECT_LE(error(judged, Estimate::synthesised), error(judged, Estimate::mapped) + 0.05);
   EXPECT_LE(judged.jerk(Source::synthesised, false), 0.5 * judged.jerk(Source::mapped, false));
   EXPECT_EQ(judged.delay_frames, 0) << "no look-ahead";
 }
@@ -79,7 +81,7 @@ TEST(RealDataSlow, another_take_by_another_actor_is_found_from_one_example_per_s
           "bandai-namco-1", [](const std::string& name) { return bandai_take(name) == 2; },
           bandai_style));
   record(judged);
-  EXPECT_LE(error(judged, Stage::synthesised), 8.9)
+  EXPECT_LE(error(judged, Estimate::synthesised), 8.9)
       << "nearest neighbours with history: 8.9, ridge regression: 10.3, mean pose: 13.3";
 }
 
@@ -99,8 +101,8 @@ TEST(RealDataSlow, two_strangers_are_found_from_eight_walkers_and_their_feet_car
       real_walks("cmu-walks", [&](const std::string& name) { return !is_stranger(name); }),
       real_walks("cmu-walks", is_stranger));
   record(judged);
-  EXPECT_LT(error(judged, Stage::synthesised), error(judged, Stage::state_means));
-  EXPECT_LT(error(judged, Stage::synthesised), error(judged, Stage::mean_pose));
+  EXPECT_LT(error(judged, Estimate::synthesised), error(judged, Estimate::state_means));
+  EXPECT_LT(error(judged, Estimate::synthesised), error(judged, Estimate::mean_pose));
   EXPECT_GT(judged.step_accuracy(false), 0.85);
 }
 

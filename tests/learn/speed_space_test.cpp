@@ -11,6 +11,7 @@
 #include "gait/learn/standing_pose.h"
 #include "gait/motion/kinematics.h"
 #include "gait/motion/rotation.h"
+#include "motion/walked_ways.h"
 #include "play/cycles/walks_over_speed.h"
 
 namespace gait {
@@ -231,6 +232,26 @@ TEST(SpeedSpace, where_the_hips_lie_in_the_file_is_no_bone) {
     ASSERT_EQ(subjects[i].cycles.size(), learnt().subjects[i].cycles.size());
     EXPECT_LT((subjects[i].cycles[0].values - learnt().subjects[i].cycles[0].values).norm(), 1e-6);
   }
+}
+
+TEST(SpeedSpace, joints_between_hip_and_ankle_change_no_leg_and_no_speed) {
+  std::vector<Walk> walks = learnt().walks;
+  for (Walk& walk : walks) walk.clip = testing::with_joints_in_legs(walk.clip);
+  const Body body = body_of_subjects(walks);
+  const auto subjects = cycles_of_subjects(walks, body);
+  const SpeedSpaces spaces = learn_speed_spaces(subjects, body);
+  ASSERT_EQ(subjects.size(), learnt().subjects.size());
+  for (std::size_t i = 0; i < subjects.size(); ++i) {
+    EXPECT_NEAR(subjects[i].leg_length, learnt().subjects[i].leg_length, 1e-9);
+    ASSERT_EQ(subjects[i].cycles.size(), learnt().subjects[i].cycles.size());
+    for (std::size_t k = 0; k < subjects[i].cycles.size(); ++k)
+      EXPECT_NEAR(subjects[i].cycles[k].leg_length, learnt().subjects[i].cycles[k].leg_length,
+                  1e-9);
+    EXPECT_NEAR(spaces.subjects[i].slowest, learnt().spaces.subjects[i].slowest, 1e-6);
+    EXPECT_NEAR(spaces.subjects[i].fastest, learnt().spaces.subjects[i].fastest, 1e-6);
+  }
+  EXPECT_NEAR(spaces.law.scale, learnt().spaces.law.scale, 1e-6);
+  EXPECT_NEAR(spaces.law.power, learnt().spaces.law.power, 1e-6);
 }
 
 TEST(SpeedSpace, what_cannot_be_learnt_from_is_said) {

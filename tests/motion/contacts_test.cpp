@@ -17,6 +17,7 @@ using testing::backwards;
 using testing::on_treadmill;
 using testing::turned;
 using testing::walk_in;
+using testing::with_joints_in_legs;
 
 WalkTrack follow(const Clip& clip) { return follow_walk(clip, find_roles(clip.skeleton)); }
 
@@ -128,6 +129,19 @@ TEST(WalkTrack, needs_legs) {
   JointRoles roles = find_roles(walk.clip.skeleton);
   roles.left.foot = -1;
   EXPECT_THROW(follow_walk(walk.clip, roles), Error);
+}
+
+TEST(Contacts, legs_are_as_long_whatever_joints_lie_between_hip_and_ankle) {
+  const CorpusWalk walk = walk_in("neutral");
+  const Clip split = with_joints_in_legs(walk.clip);
+  const JointRoles roles = find_roles(split.skeleton);
+  EXPECT_NE(split.skeleton.joints[roles.left.shank].parent, roles.left.thigh);
+  EXPECT_NE(split.skeleton.joints[roles.left.foot].parent, roles.left.shank);
+  EXPECT_NEAR(leg_length(split.skeleton, roles), corpus_leg_length, 1e-9);
+  const WalkTrack plain = follow(walk.clip), track = follow(split);
+  EXPECT_NEAR(track.leg_length, plain.leg_length, 1e-9);
+  EXPECT_EQ(track.contacts, plain.contacts);
+  EXPECT_NEAR(track.speed, plain.speed, 1e-9);
 }
 
 }  // namespace

@@ -18,6 +18,35 @@ inline CorpusWalk walk_in(const std::string& style, int cycles = 6, int take = 1
   return make_walk(plan);
 }
 
+// The same walk on a rig with one more joint half-way to `joint`, which never turns.
+inline Clip with_joint_before(const Clip& clip, int joint) {
+  Clip split = clip;
+  std::vector<Joint>& joints = split.skeleton.joints;
+  for (Joint& other : joints)
+    if (other.parent >= joint) ++other.parent;
+  const Eigen::Vector3d half = joints[joint].offset / 2;
+  joints.insert(joints.begin() + joint,
+                Joint{"Helper" + std::to_string(joint), joints[joint].parent, half, {}});
+  joints[joint + 1].parent = joint;
+  joints[joint + 1].offset = half;
+  split.resize(clip.frames());
+  for (int frame = 0; frame < clip.frames(); ++frame)
+    for (int to = 0; to < split.skeleton.size(); ++to) {
+      const int from = to > joint ? to - 1 : to;
+      split.pose(frame)[to] = to == joint ? Eigen::Quaterniond::Identity() : clip.pose(frame)[from];
+      split.translation(frame)[to] =
+          to == joint || to == joint + 1 ? half : clip.translation(frame)[from];
+    }
+  return split;
+}
+
+// The same walk on a rig whose legs have joints between thigh and shank, and shank and foot.
+inline Clip with_joints_in_legs(Clip clip) {
+  for (const char* name : {"left shank", "left foot", "right shank", "right foot"})
+    clip = with_joint_before(clip, find_roles(clip.skeleton).joint(*role_from_name(name)));
+  return clip;
+}
+
 // The whole walk turned about the vertical.
 inline Clip turned(Clip clip, double angle) {
   for (int frame = 0; frame < clip.frames(); ++frame) {

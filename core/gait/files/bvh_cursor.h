@@ -14,7 +14,6 @@ class BvhCursor {
   // `text` and `name` must outlive the cursor. A byte order mark is skipped.
   BvhCursor(std::string_view text, std::string_view name);
 
-  int line() const { return line_; }
   std::size_t bytes_left() const { return text_.size() - position_; }
 
   // Moves over white space, ends of lines included. False at the end of the file.

@@ -114,9 +114,9 @@ class Evaluator {
       const Eigen::VectorXd stand_ins[] = {model_->output_mean, state_means.outputs.col(frame),
                                            mapped.outputs.col(frame),
                                            synthesised.outputs.col(frame)};
-      for (const Stage stage : stages)
-        result.angle_sums[static_cast<int>(stage)] +=
-            stream_errors(*model_, stand_ins[static_cast<int>(stage)], true_outputs);
+      for (const Estimate estimate : estimates)
+        result.angle_sums[static_cast<int>(estimate)] +=
+            stream_errors(*model_, stand_ins[static_cast<int>(estimate)], true_outputs);
       result.right_steps += synthesised.decisions[frame].label == synthesised.true_label[frame];
       ++result.frames;
       if (frame < mapped.begin + 3) continue;

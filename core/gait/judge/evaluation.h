@@ -15,13 +15,13 @@
 
 namespace gait {
 
-// What stands in for the outputs: each contains the one before and adds something.
-enum class Stage { mean_pose, state_means, mapped, synthesised };
-inline constexpr std::array stages{Stage::mean_pose, Stage::state_means, Stage::mapped,
-                                   Stage::synthesised};
-constexpr std::string_view stage_name(Stage stage) {
+// How outputs are estimated: each way contains the one before and adds something.
+enum class Estimate { mean_pose, state_means, mapped, synthesised };
+inline constexpr std::array estimates{Estimate::mean_pose, Estimate::state_means, Estimate::mapped,
+                                      Estimate::synthesised};
+constexpr std::string_view estimate_name(Estimate estimate) {
   constexpr std::string_view names[] = {"mean pose", "state means", "mapped", "synthesised"};
-  return names[static_cast<int>(stage)];
+  return names[static_cast<int>(estimate)];
 }
 
 // Sums over frames, from which both kinds of means come.
@@ -31,7 +31,7 @@ struct EvaluatedClip {
   double right_steps = 0, right_styles = 0;  // frames
   bool style_known = false;                  // the clip's style is one of the model's
   int best_style = -1;                       // over the whole clip
-  // Per stage and output stream: sum over frames of the angle to the truth.
+  // Per estimate and output stream: sum over frames of the angle to the truth.
   std::array<Eigen::VectorXd, 4> angle_sums;
   // Truth, mapped, synthesised: sum over frames of the joints' mean jerk.
   double jerk_truth = 0, jerk_mapped = 0, jerk_synthesised = 0;
@@ -60,8 +60,8 @@ struct Evaluation {
   int delay_frames = 0;
 
   // Mean angle of the counted streams: over clips, or pooled over frames; of one style if named.
-  double error(Stage stage, bool pooled, const std::string& style = {}) const;
-  double stream_error(Stage stage, int stream, bool pooled = false) const;
+  double error(Estimate estimate, bool pooled, const std::string& style = {}) const;
+  double stream_error(Estimate estimate, int stream, bool pooled = false) const;
   double step_accuracy(bool pooled) const;
   double style_accuracy(bool pooled) const;             // per frame; NaN without known styles
   double style_accuracy_of_clips() const;               // share of clips; NaN without known styles

@@ -34,21 +34,23 @@ double counted_mean(const Eigen::VectorXd& sums, const std::vector<bool>& counte
 
 }  // namespace
 
-double Evaluation::error(Stage stage, bool pooled, const std::string& style) const {
+double Evaluation::error(Estimate estimate, bool pooled, const std::string& style) const {
   return averaged(
       clips, pooled,
       [&](const EvaluatedClip& clip) {
-        return counted_mean(clip.angle_sums[static_cast<int>(stage)], counted);
+        return counted_mean(clip.angle_sums[static_cast<int>(estimate)], counted);
       },
       [&](const EvaluatedClip& clip) {
         return style.empty() || clip.style == style ? clip.frames : 0;
       });
 }
 
-double Evaluation::stream_error(Stage stage, int stream, bool pooled) const {
+double Evaluation::stream_error(Estimate estimate, int stream, bool pooled) const {
   return averaged(
       clips, pooled,
-      [&](const EvaluatedClip& clip) { return clip.angle_sums[static_cast<int>(stage)][stream]; },
+      [&](const EvaluatedClip& clip) {
+        return clip.angle_sums[static_cast<int>(estimate)][stream];
+      },
       [](const EvaluatedClip& clip) { return clip.frames; });
 }
 

@@ -74,11 +74,6 @@ Eigen::VectorXd mean_pose(const Walk& walk, const Body& own) {
   return sum / std::max(1, poses.frames());
 }
 
-double leg_length(const Skeleton& skeleton, const JointRoles& roles) {
-  return skeleton.joints[roles.left.shank].offset.norm() +
-         skeleton.joints[roles.left.foot].offset.norm();
-}
-
 // A cycle ends where it began: what it went astray is taken back evenly (G04 §5 leaves it). Both
 // ends are carried on half a frame to where they should meet.
 void close(CapturedCycle& cycle, int frames) {

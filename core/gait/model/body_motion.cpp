@@ -15,12 +15,6 @@ namespace gait {
 
 namespace {
 
-const Body& body_of(const Model& model) {
-  if (!model.body)
-    throw Error("model " + model.name + ": expected a model of a body; its streams are plain");
-  return *model.body;
-}
-
 // As reconstruction asks for them: joints that are neither may be missing.
 std::vector<int> needed_joints(const Body& body) {
   std::vector<int> joints = body.input_joints;
@@ -86,7 +80,7 @@ void check_contacts(const BodyMotion& motion) {
 }  // namespace
 
 BodyMotion motion_on_body(const Clip& clip, const Model& model, std::vector<LabelSegment> labels) {
-  const Body& body = body_of(model);
+  const Body& body = required_body(model);
   const std::vector<int> matched =
       match_joints(body, clip.skeleton, clip.name, needed_joints(body));
   const JointRoles roles = matched_roles(body, matched, clip.skeleton.size());
@@ -123,7 +117,7 @@ BodyMotion read_motion(const std::filesystem::path& path, const Model& model) {
   const BvhFile file = read_bvh(path);
   const Clip in_file = clip_from_bvh(file);
   if (in_file.frames() == 0) throw Error(file.name + ": expected frames to play, found none");
-  const Body& body = body_of(model);
+  const Body& body = required_body(model);
   const JointRoles roles =
       matched_roles(body, match_joints(body, in_file.skeleton, file.name, needed_joints(body)),
                     in_file.skeleton.size());

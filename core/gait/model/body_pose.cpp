@@ -43,6 +43,19 @@ std::string listed(const std::vector<std::string>& names) {
 
 }  // namespace
 
+const Body& required_body(const Model& model) {
+  if (!model.body)
+    throw Error("model " + model.name + ": expected a model of a body; its streams are plain");
+  return *model.body;
+}
+
+std::vector<Eigen::Quaternionf> float_references(const Body& body) {
+  std::vector<Eigen::Quaternionf> references;
+  for (const Eigen::Quaterniond& reference : body.references)
+    references.push_back(reference.cast<float>());
+  return references;
+}
+
 std::vector<int> match_joints(const Body& body, const Skeleton& skeleton, const std::string& clip,
                               const std::vector<int>& needed) {
   std::vector<int> wanted = needed;

@@ -10,6 +10,12 @@
 
 namespace gait {
 
+// The model's body. Throws Error when it has none.
+const Body& required_body(const Model& model);
+
+// One per joint of the body, in the precision of playing.
+std::vector<Eigen::Quaternionf> float_references(const Body& body);
+
 // Largest angle between a clip's and a body's rest direction of a bone (radians) that still counts
 // as the same rig: 10 degrees for the bones of arms and legs, whose rest tells how the rig's frames
 // lie. From trunk to head, to the arms and to the thighs it is 35: there the rest is a person's
@@ -58,6 +64,21 @@ void place_body(Clip& clip, int frame, const JointRoles& roles,
                 std::span<const Eigen::Quaterniond> pose, double heading,
                 const Eigen::Vector3d& hips);
 
+// Writes the three values of a joint: its rotation vector relative to the reference.
+template <typename Scalar>
+void values_from(const Quaternion<Scalar>& rotation, const Quaternion<Scalar>& reference,
+                 Scalar* values) noexcept {
+  const Vector3<Scalar> vector = rotation_vector<Scalar>(reference.conjugate() * rotation);
+  values[0] = vector.x(), values[1] = vector.y(), values[2] = vector.z();
+}
+
+// And back: the rotation of a joint from its three values.
+template <typename Scalar>
+Quaternion<Scalar> rotation_from(std::span<const Scalar, 3> values,
+                                 const Quaternion<Scalar>& reference) noexcept {
+  return reference * exponential_map<Scalar>(Vector3<Scalar>(values[0], values[1], values[2]));
+}
+
 // Pose vector: per joint of `joints` the rotation vector relative to its reference, three values
 // each. `pose` has one rotation per joint of the body.
 template <typename Scalar>
@@ -66,17 +87,26 @@ void pose_vector(std::span<const Quaternion<Scalar>> pose,
                  std::span<Scalar> values) noexcept {
   for (std::size_t i = 0; i < joints.size(); ++i) {
     const auto joint = static_cast<std::size_t>(joints[i]);
-    const Vector3<Scalar> vector =
-        rotation_vector<Scalar>(references[joint].conjugate() * pose[joint]);
-    values[3 * i] = vector.x(), values[3 * i + 1] = vector.y(), values[3 * i + 2] = vector.z();
+    values_from<Scalar>(pose[joint], references[joint], values.data() + 3 * i);
   }
 }
 
-// And back: the rotation of a joint from its three values.
+// The same of all joints.
 template <typename Scalar>
-Quaternion<Scalar> rotation_from(std::span<const Scalar, 3> values,
-                                 const Quaternion<Scalar>& reference) noexcept {
-  return reference * exponential_map<Scalar>(Vector3<Scalar>(values[0], values[1], values[2]));
+void pose_vector(std::span<const Quaternion<Scalar>> pose,
+                 std::span<const Quaternion<Scalar>> references,
+                 std::span<Scalar> values) noexcept {
+  for (std::size_t joint = 0; joint < pose.size(); ++joint)
+    values_from<Scalar>(pose[joint], references[joint], values.data() + 3 * joint);
+}
+
+// And back: the rotations of all joints.
+template <typename Scalar>
+void pose_from(std::span<const Scalar> values, std::span<const Quaternion<Scalar>> references,
+               std::span<Quaternion<Scalar>> pose) noexcept {
+  for (std::size_t joint = 0; joint < pose.size(); ++joint)
+    pose[joint] =
+        rotation_from<Scalar>(values.subspan(3 * joint).template first<3>(), references[joint]);
 }
 
 }  // namespace gait

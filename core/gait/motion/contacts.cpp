@@ -149,8 +149,7 @@ WalkTrack follow_walk(const Clip& clip, const JointRoles& roles) {
   WalkTrack track;
   track.world = world_poses(clip);
   const Walk walk(clip, roles, track.world);
-  const auto& joints = clip.skeleton.joints;
-  track.leg_length = joints[roles.left.shank].offset.norm() + joints[roles.left.foot].offset.norm();
+  track.leg_length = leg_length(clip.skeleton, roles);
   if (clip.frames() < 3) {
     track.heading.assign(clip.frames(), 0.0);
     return track;

@@ -131,6 +131,14 @@ std::vector<int> JointRoles::hips_and_legs() const {
   return joints;
 }
 
+double leg_length(const Skeleton& skeleton, const JointRoles& roles) {
+  double length = 0;
+  for (int joint = roles.left.foot; joint >= 0 && joint != roles.left.thigh && joint != roles.hips;
+       joint = skeleton.joints[joint].parent)
+    length += skeleton.joints[joint].offset.norm();
+  return length;
+}
+
 JointRoles find_roles(const Skeleton& skeleton, const RoleTable& table) {
   JointRoles roles;
   roles.of_joint = roles_from_names(skeleton);

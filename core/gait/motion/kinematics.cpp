@@ -8,13 +8,12 @@ void forward_kinematics(const Skeleton& skeleton, std::span<const Eigen::Quatern
                         std::span<Eigen::Vector3d> positions) noexcept {
   for (int joint = 0; joint < skeleton.size(); ++joint) {
     const int parent = skeleton.joints[joint].parent;
-    if (parent < 0) {
-      global_rotations[joint] = rotations[joint];
-      positions[joint] = translations[joint];
-    } else {
-      global_rotations[joint] = global_rotations[parent] * rotations[joint];
-      positions[joint] = positions[parent] + global_rotations[parent] * translations[joint];
-    }
+    Placement<double> placed{rotations[joint], translations[joint]};
+    if (parent >= 0)
+      placed = placed_under<double>({global_rotations[parent], positions[parent]}, placed.rotation,
+                                    placed.place);
+    global_rotations[joint] = placed.rotation;
+    positions[joint] = placed.place;
   }
 }
 

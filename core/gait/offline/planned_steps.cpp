@@ -1,6 +1,6 @@
 #include <cmath>
 
-#include "gait/error.h"
+#include "gait/model/body_pose.h"
 #include "gait/motion/resample.h"
 #include "gait/offline/planned_walk.h"
 #include "gait/offline/walk_recorder.h"
@@ -16,8 +16,7 @@ constexpr double lead_in_seconds = 2;  // until the feet have found their direct
 
 Clip stepped_walk(const std::shared_ptr<const Model>& model, const StyledWalkPlan& plan) {
   StepWalker walker(model);
-  if (!model->body)
-    throw Error("model " + model->name + ": expected a model of a body; its streams are plain");
+  required_body(*model);
   std::vector<std::vector<float>> wanted;
   for (const StyleChange& change : plan.changes)
     wanted.push_back(style_weights(*model, change.mix));

@@ -3,6 +3,7 @@
 #include <algorithm>
 
 #include "gait/error.h"
+#include "gait/model/body_pose.h"
 #include "gait/model/fitted_model.h"
 #include "gait/motion/contacts.h"
 #include "gait/motion/kinematics.h"
@@ -28,8 +29,11 @@ std::vector<int> joined(std::vector<int> a, const std::vector<int>& b) {
 class FileReconstruction {
  public:
   FileReconstruction(std::shared_ptr<const Model> model, const BvhFile& file,
-                     const BodyFrameOverride& said, RootFrom root, bool calibrate)
-      : model_(std::move(model)), body_(body_of(*model_)), clip_(clip_from_bvh(file)), root_(root) {
+                     const BodyFrameOverride& said, FileRoot root, bool calibrate)
+      : model_(std::move(model)),
+        body_(required_body(*model_)),
+        clip_(clip_from_bvh(file)),
+        root_(root) {
     turns_.assign(clip_.skeleton.joints.size(), Eigen::Quaterniond::Identity());
     if (calibrate) turn_rest();
     matched_ = match_joints(body_, clip_.skeleton, file.name,
@@ -55,12 +59,6 @@ class FileReconstruction {
   }
 
  private:
-  static const Body& body_of(const Model& model) {
-    if (!model.body)
-      throw Error("model " + model.name + ": expected a model of a body; its streams are plain");
-    return *model.body;
-  }
-
   // From here on the clip is told by a rig that rests as the model's does; what is written is
   // turned back. Joints above the hips only carry them: they stay as they are.
   void turn_rest() {
@@ -122,7 +120,7 @@ class FileReconstruction {
   }
 
   bool hips_move() const {
-    return roles_.hips >= 0 && (hips_made_ || (hips_measured_ && root_ == RootFrom::feet));
+    return roles_.hips >= 0 && (hips_made_ || (hips_measured_ && root_ == FileRoot::feet));
   }
 
   // Channels that will be set, or whose old values would still be seen by the choice of angles.
@@ -137,7 +135,7 @@ class FileReconstruction {
         auto values = result_.file.values.col(column++);
         if (output && (!position || joint != roles_.hips))
           values.setConstant(position ? result_.file.skeleton.joints[joint].offset[axis] : 0.0);
-        else if (hips_made_ && root_ == RootFrom::feet &&
+        else if (hips_made_ && root_ == FileRoot::feet &&
                  (joint == roles_.hips || above_hips(joint)))
           values.setZero();
       }
@@ -146,7 +144,7 @@ class FileReconstruction {
   // Per frame the heading that is put back into hips that were made; none when feet lead the root.
   std::vector<double> captured_heading() const {
     std::vector<double> none(clip_.frames(), 0.0);
-    if (root_ == RootFrom::feet || !hips_made_ || !roles_.has_legs() || clip_.frames() < 2)
+    if (root_ == FileRoot::feet || !hips_made_ || !roles_.has_legs() || clip_.frames() < 2)
       return none;
     const Clip clip = in_metres_y_up(clip_, frame_);
     return follow_walk(clip, roles_).heading;
@@ -204,14 +202,14 @@ class FileReconstruction {
 
   void write_hips(int frame, double heading) {
     const int hips = body_roles(body_).hips;
-    const Place above = place_above_hips(frame, hips_made_ && root_ == RootFrom::feet);
+    const Place above = place_above_hips(frame, hips_made_ && root_ == FileRoot::feet);
     if (hips_made_) {
       const Eigen::Quaterniond in_world = root_rotation_in_file(
           about_vertical(heading) * result_.walk.clip.pose(frame)[hips], frame_);
       set_rotation(result_.file, frame, roles_.hips,
                    as_in_file(roles_.hips, above.rotation.conjugate() * in_world));
     }
-    if (root_ != RootFrom::feet) return;
+    if (root_ != FileRoot::feet) return;
     const Eigen::Vector3d in_world =
         root_translation_in_file(result_.walk.clip.translation(frame)[hips], frame_);
     place_hips(frame, above, in_world);
@@ -243,7 +241,7 @@ class FileReconstruction {
   const Body& body_;
   Clip clip_;                              // in the file's frame, told by the turned rig
   std::vector<Eigen::Quaterniond> turns_;  // per joint of the file
-  RootFrom root_;
+  FileRoot root_;
   std::vector<int> matched_, inputs_;
   JointRoles roles_;  // indices into the file's joints
   bool hips_measured_ = false, hips_made_ = false;
@@ -255,7 +253,7 @@ class FileReconstruction {
 
 ReconstructedFile reconstruct_file(std::shared_ptr<const Model> model, const BvhFile& file,
                                    const BodyFrameOverride& said, const PlayerSettings& settings,
-                                   RootFrom root, bool calibrate) {
+                                   FileRoot root, bool calibrate) {
   if (file.values.rows() == 0)
     throw Error(file.name + ": expected frames to reconstruct, found none");
   return FileReconstruction(std::move(model), file, said, root, calibrate).run(settings);

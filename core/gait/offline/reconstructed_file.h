@@ -15,7 +15,8 @@
 
 namespace gait {
 
-enum class RootFrom {
+// Where the hips of the written file come from.
+enum class FileRoot {
   feet,  // hips by the feet, from the origin along +Z; joints above them at rest, at the origin
   file   // place and heading of the hips as in the file, joints above them untouched
 };
@@ -33,6 +34,6 @@ struct ReconstructedFile {
 // rest directions differ from the model's, or whose channels cannot take a rotation.
 ReconstructedFile reconstruct_file(std::shared_ptr<const Model> model, const BvhFile& file,
                                    const BodyFrameOverride& said, const PlayerSettings& settings,
-                                   RootFrom root, bool calibrate = false);
+                                   FileRoot root, bool calibrate = false);
 
 }  // namespace gait

@@ -51,10 +51,7 @@ LiveBody::LiveBody(std::shared_ptr<const Model> model)
          joint = body.skeleton.joints[joint].parent)
       rest_height_ += body.skeleton.joints[joint].offset.norm();
   }
-  for (const Eigen::Quaterniond& reference : body.references) {
-    all_joints_.push_back(static_cast<int>(all_joints_.size()));
-    references_.push_back(reference.cast<float>());
-  }
+  references_ = float_references(body);
   for (std::size_t i = 0; i < body.input_joints.size(); ++i) {
     const int input = input_named(*model_, body.skeleton.joints[body.input_joints[i]].name);
     if (input >= 0) input_of_[input] = body.input_joints[i];
@@ -221,7 +218,7 @@ bool LiveBody::take_values(const CapturedFrame& captured) noexcept {
   filter_.apply(captured.time, local_);
   for (std::size_t joint = 0; joint < local_.size(); ++joint)
     pose_[joint] = local_[joint].cast<float>();
-  pose_vector<float>(pose_, references_, all_joints_, values_);
+  pose_vector<float>(pose_, references_, values_);
   pose_vector<float>(pose_, references_, model_->body->input_joints, inputs_);
   frame_.inputs = inputs_;
   frame_.pose = values_;
@@ -236,7 +233,7 @@ void LiveBody::finish(const CapturedFrame& captured) noexcept {
     pose_[joint] = static_cast<int>(joint) == hips_
                        ? (about_vertical(-heading) * local_[joint]).cast<float>()
                        : local_[joint].cast<float>();
-  pose_vector<float>(pose_, references_, all_joints_, values_);
+  pose_vector<float>(pose_, references_, values_);
   pose_vector<float>(pose_, references_, model_->body->input_joints, inputs_);
   frame_.heading = static_cast<float>(heading);
   frame_.inputs = inputs_;

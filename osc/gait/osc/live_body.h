@@ -72,7 +72,6 @@ class LiveBody {
   std::shared_ptr<const Model> model_;
   std::optional<HumanoidBody> humanoid_;  // none without a body that has legs
   std::vector<Eigen::Quaternionf> references_;
-  std::vector<int> all_joints_;
   int hips_ = -1;
   Eigen::Vector3d right_to_left_thigh_ = Eigen::Vector3d::Zero();
   double rest_height_ = 0;  // of the hips, metres

@@ -3,14 +3,19 @@
 
 #include <gtest/gtest.h>
 
+#include <chrono>
+#include <thread>
+
 #include "gait/corpus/demo_motion.h"
 #include "gait/play/clips/clip_player.h"
 #include "play/few_walks.h"
+#include "play/forbidden_memory.h"
 
 namespace gait {
 namespace {
 
 using testing::few_walks_model;
+using testing::ForbiddenMemory;
 using testing::plan_of;
 
 BodyMotion sad_walk() { return demo_motion("gait-demo:sad", *few_walks_model()); }
@@ -125,6 +130,41 @@ TEST(PoseRecorder, refuses_what_is_no_frame_and_what_is_too_much) {
   EXPECT_EQ(recorder.frames(), 3600 * 30);
   recorder.clear();
   EXPECT_TRUE(recorder.take_pose(frame.pose, 0));
+}
+
+TEST(PoseRecorder, takes_no_memory_while_it_records) {
+  if (!ForbiddenMemory::works()) GTEST_SKIP() << "a sanitizer has malloc";
+  const auto model = few_walks_model();
+  const std::vector<Told> frames = told(sad_walk());
+  const int per_block = static_cast<int>(30 * model->frame_rate), wanted = 2 * per_block + 100;
+  PoseRecorder recorder(model);
+  for (int take = 0; take < 2; ++take) {
+    long allocations = 0, releases = 0;
+    bool taken = true;
+    for (int i = 0; i < wanted; ++i) {
+      // No sender is half a minute ahead of a thread.
+      while (i % per_block == 0 && !recorder.prepared())
+        std::this_thread::sleep_for(std::chrono::milliseconds(1));
+      const Told& frame = frames[static_cast<std::size_t>(i) % frames.size()];
+      const ForbiddenMemory forbidden;
+      taken &= recorder.take_root(frame.hips, frame.heading);
+      if (i % 2 == 0) {
+        taken &= recorder.take_pose(frame.pose, i / 30.0);
+      } else {
+        taken &= recorder.take_inputs(frame.in, i / 30.0);
+        taken &= recorder.take_outputs(frame.out, i / 30.0);
+      }
+      allocations += forbidden.allocations();
+      releases += forbidden.releases();
+    }
+    EXPECT_TRUE(taken);
+    EXPECT_EQ(allocations, 0);
+    EXPECT_EQ(releases, 0);
+    const BodyMotion recorded = recorder.finish().motion("recorded");
+    ASSERT_EQ(recorded.frames(), wanted);
+    const std::size_t last = static_cast<std::size_t>(wanted - 1);
+    EXPECT_LT((recorded.hips[last] - frames[last % frames.size()].hips).norm(), 1e-5);
+  }
 }
 
 }  // namespace

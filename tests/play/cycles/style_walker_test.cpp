@@ -162,14 +162,11 @@ TEST(StyleWalker, exaggeration_moves_along_the_line_from_the_mean_of_all_styles)
   EXPECT_LT((none - mean).norm(), 1e-4f * whole.norm());
 }
 
-TEST(StyleWalker, cadence_can_be_scaled_or_set) {
+TEST(StyleWalker, cadence_can_be_set) {
   StyleWalker walker(model(), 6);
   walker.set_style(style("decided"));
   const float own = walker.cadence();
   EXPECT_NEAR(own, 2 / walker.duration(), 1e-5f);
-  ASSERT_TRUE(walker.set_cadence_scale(0.5f));
-  EXPECT_NEAR(walker.cadence(), 0.5f * own, 1e-5f);
-  ASSERT_TRUE(walker.set_cadence_scale(1));
   ASSERT_TRUE(walker.set_cadence(1.6f));
   int contacts = 0;
   for (int i = 0; i < 6000; ++i) {
@@ -179,10 +176,6 @@ TEST(StyleWalker, cadence_can_be_scaled_or_set) {
   EXPECT_NEAR(contacts, 96, 1);
   ASSERT_TRUE(walker.set_cadence(0));
   EXPECT_NEAR(walker.cadence(), 2 / walker.duration(), 1e-5f);
-  ASSERT_TRUE(walker.set_cadence_scale(0));
-  const double phase = walker.phase();
-  EXPECT_TRUE(walker.advance(1));
-  EXPECT_EQ(walker.phase(), phase);
 }
 
 TEST(StyleWalker, says_which_foot_met_the_ground_and_when) {
@@ -215,7 +208,6 @@ TEST(StyleWalker, a_control_that_cannot_be_set_changes_nothing) {
       EXPECT_FALSE(walker.set_variation(strange));
       EXPECT_FALSE(walker.set_exaggeration(strange));
       EXPECT_FALSE(walker.set_cadence(strange));
-      EXPECT_FALSE(walker.set_cadence_scale(strange));
       EXPECT_FALSE(walker.pin(0, strange));
       EXPECT_FALSE(walker.advance(strange));
       std::vector<float> weights(model()->styles.size(), 1);
@@ -245,7 +237,7 @@ TEST(StyleWalker, controls_out_of_range_are_clamped) {
   EXPECT_TRUE(walker.set_variation(50) && clamped.set_variation(2));
   EXPECT_TRUE(walker.set_exaggeration(-9) && clamped.set_exaggeration(-1));
   EXPECT_TRUE(walker.pin(1, 1e30f) && clamped.pin(1, 6));
-  EXPECT_TRUE(walker.set_cadence_scale(1e30f) && clamped.set_cadence_scale(4));
+  EXPECT_TRUE(walker.set_cadence(1e30f) && clamped.set_cadence(8));
   EXPECT_TRUE(same(walk(walker, 100), walk(clamped, 100)));
 }
 
@@ -271,12 +263,9 @@ TEST(StyleWalker, whatever_is_done_to_it_poses_stay_poses) {
         walker.free(static_cast<int>(random() % 20));
         break;
       case 5:
-        walker.set_cadence_scale(any(random));
-        break;
-      case 6:
         walker.set_cadence(any(random));
         break;
-      case 7:
+      case 6:
         walker.set_through_neutral(random() % 2 == 0);
         break;
       default:

@@ -87,6 +87,26 @@ TEST(InputStream, takes_rotations_as_quaternions_and_as_euler_angles) {
   }
 }
 
+TEST(InputStream, joints_are_found_behind_plain_streams) {
+  auto model = std::make_shared<Model>(*few_walks_model());
+  model->inputs.insert(model->inputs.begin(), {"pressure", 1, StreamKind::plain});
+  ++model->input.values;
+  const auto poses = input_poses(make_walk(plan_of("sad", 9)).clip, *model->body);
+  InputStream rotations(model), bodies(model);
+  std::vector<float> body(3 * model->body->references.size(), 0.0f);
+  for (std::size_t i = 0; i < poses[7].size(); ++i) {
+    EXPECT_TRUE(rotations.set_rotation(static_cast<int>(i) + 1, poses[7][i]));
+    const int joint = model->body->input_joints[i];
+    values_from<float>(poses[7][i], model->body->references[joint].cast<float>(),
+                       body.data() + 3 * joint);
+  }
+  EXPECT_FALSE(rotations.set_rotation(0, poses[7][0])) << "a plain stream";
+  rotations.push_collected(0), bodies.push_body(0, body);
+  ASSERT_TRUE(rotations.next() && bodies.next());
+  for (int value = 1; value < model->input.values; ++value)
+    EXPECT_NEAR(rotations.values()[value], bodies.values()[value], 2e-6) << value;
+}
+
 TEST(InputStream, euler_angles_turn_as_a_bvh_file_says) {
   const float degrees[3] = {90, 90, 0};
   const auto turned = rotation_from_euler("ZXY", degrees);

@@ -3,12 +3,7 @@
 #include <gtest/gtest.h>
 
 #include <cmath>
-#include <limits>
-#include <random>
 #include <vector>
-
-#include "gait/error.h"
-#include "gait/play/cadence_estimate.h"
 
 namespace gait {
 namespace {
@@ -39,8 +34,8 @@ TEST(PhaseEstimate, the_right_step_is_the_first_half_of_the_cycle_and_the_left_o
   EXPECT_FLOAT_EQ(phase_in(estimator, 2, 0.5f), 0.25f);
   EXPECT_FLOAT_EQ(phase_in(estimator, 4, 0), 0.5f);
   EXPECT_FLOAT_EQ(phase_in(estimator, 7, 0.9f), 0.95f);
-  EXPECT_EQ(estimator.labels_in_cycle(0), 2);
-  EXPECT_NEAR(estimator.mean_cadence(0), 2.5, 1e-5);
+  EXPECT_EQ(estimator.cycle(0).labels, 2);
+  EXPECT_NEAR(estimator.cycle(0).cadence(), 2.5, 1e-5);
 }
 
 TEST(PhaseEstimate, labels_in_any_ring_share_its_cycle_and_others_have_their_own) {
@@ -51,12 +46,12 @@ TEST(PhaseEstimate, labels_in_any_ring_share_its_cycle_and_others_have_their_own
   EXPECT_FLOAT_EQ(phase_in(estimator, 1 * 4, 0.5f), 2.5f / 3);
   for (const int alone : {2, 4, 5}) {
     EXPECT_FLOAT_EQ(phase_in(estimator, alone * 4, 0.25f), 0.25f);
-    EXPECT_EQ(estimator.labels_in_cycle(alone), 1);
-    EXPECT_NEAR(estimator.mean_cadence(alone), 2.5, 1e-5);
+    EXPECT_EQ(estimator.cycle(alone).labels, 1);
+    EXPECT_NEAR(estimator.cycle(alone).cadence(), 2.5, 1e-5);
   }
   for (const int together : {0, 1, 3}) {
-    EXPECT_EQ(estimator.labels_in_cycle(together), 3);
-    EXPECT_NEAR(estimator.mean_cadence(together), 2.5, 1e-5);
+    EXPECT_EQ(estimator.cycle(together).labels, 3);
+    EXPECT_NEAR(estimator.cycle(together).cadence(), 2.5, 1e-5);
   }
 }
 
@@ -90,53 +85,6 @@ TEST(PhaseEstimate, says_what_was_seen_when_the_observation_was_of_mean_age) {
   const PhaseEstimate estimate = estimator.of({&one, 1}, 0.02f);
   EXPECT_NEAR(estimate.age, 1 / 30.0, 1e-6);
   EXPECT_NEAR(estimate.seen, 0.01 - 1 / 30.0 / 0.8 + 1, 1e-5);
-}
-
-TEST(Cadence, is_the_steps_per_second_of_the_last_cycle_despite_noise_and_a_limp) {
-  const double rate = 30;
-  std::mt19937 random(1);
-  std::normal_distribution<double> noise(0, 0.02);
-  for (const double cadence : {0.9, 1.8, 2.6}) {
-    CadenceEstimator estimator(rate);
-    for (int frame = 0; frame < 300; ++frame) {
-      const double cycles = frame / rate * cadence / 2, within = cycles - std::floor(cycles);
-      // The right step takes 0.6 of the cycle's time.
-      const double limping = within < 0.6 ? within / 1.2 : 0.5 + (within - 0.6) / 0.8;
-      const double phase = limping + noise(random) + 1;
-      estimator.advance(phase - std::floor(phase), 2);
-      if (frame > 3 * rate) {
-        EXPECT_NEAR(estimator.cadence() / cadence, 1, 0.1);
-      }
-    }
-  }
-}
-
-TEST(Cadence, follows_a_change_within_a_cycle_and_a_half) {
-  CadenceEstimator estimator(30);
-  double phase = 0;
-  for (int frame = 0; frame < 300; ++frame) {
-    const double frequency = frame < 150 ? 0.9 : 1.08;
-    phase += frequency / 30;
-    estimator.advance(phase - std::floor(phase), 2);
-    if (frame == 149) {
-      EXPECT_NEAR(estimator.cadence(), 1.8, 0.01);
-    } else if (frame == 150 + static_cast<int>(1.5 / 0.9 * 30)) {
-      EXPECT_NEAR(estimator.cadence(), 2.16, 0.01);
-    }
-  }
-}
-
-TEST(Cadence, of_who_stands_falls_to_zero_and_nonsense_is_ignored) {
-  CadenceEstimator estimator(30, 2);
-  for (int frame = 0; frame < 90; ++frame) estimator.advance(std::fmod(frame * 0.03, 1.0), 2);
-  const float walking = estimator.cadence();
-  EXPECT_NEAR(walking, 1.8, 0.01);
-  estimator.advance(std::numeric_limits<double>::quiet_NaN(), 2);
-  EXPECT_EQ(estimator.cadence(), walking);
-  for (int frame = 0; frame < 61; ++frame) estimator.advance(0.67, 2);
-  EXPECT_NEAR(estimator.cadence(), 0, 1e-6);
-  EXPECT_THROW(CadenceEstimator(0), Error);
-  EXPECT_THROW(CadenceEstimator(30, 0), Error);
 }
 
 }  // namespace

@@ -19,11 +19,11 @@ TEST(StateTables, keep_the_entries_of_inputs_that_are_there) {
   const Model model = random_model();  // 5 values, 2 differences each
   const auto tables = make_state_tables(model, {false, true, false, false, true});
   EXPECT_EQ(tables->kept, (std::vector<int>{0, 2, 3, 5, 7, 8, 10, 12, 13}));
-  EXPECT_EQ(tables->stages, (std::vector<int>{3, 6, 9}));
-  EXPECT_EQ(tables->stage_of(0, model.input), 0);
-  EXPECT_EQ(tables->stage_of(5, model.input), 0);
-  EXPECT_EQ(tables->stage_of(10, model.input), 1);
-  EXPECT_EQ(tables->stage_of(15, model.input), 2);
+  EXPECT_EQ(tables->depths, (std::vector<int>{3, 6, 9}));
+  EXPECT_EQ(tables->depth_of(0, model.input), 0);
+  EXPECT_EQ(tables->depth_of(5, model.input), 0);
+  EXPECT_EQ(tables->depth_of(10, model.input), 1);
+  EXPECT_EQ(tables->depth_of(15, model.input), 2);
 }
 
 TEST(StateTables, hold_labels_durations_and_transitions_as_the_model_says) {
@@ -52,8 +52,8 @@ TEST(StateTables, explained_variance_is_that_of_the_regression_at_every_stage) {
   const auto tables = make_state_tables(model, missing);
   const int x = model.input.size();
   for (int index = 0; index < model.states(); ++index)
-    for (std::size_t stage = 0; stage < tables->stages.size(); ++stage) {
-      const int known = model.input.statics() * (static_cast<int>(stage) + 1);
+    for (std::size_t depth = 0; depth < tables->depths.size(); ++depth) {
+      const int known = model.input.statics() * (static_cast<int>(depth) + 1);
       const auto there = entries_there(model, known, missing);
       const State& state = state_of(model, index);
       std::vector<int> outputs;
@@ -62,7 +62,7 @@ TEST(StateTables, explained_variance_is_that_of_the_regression_at_every_stage) {
       const Eigen::MatrixXd direct =
           cross * Eigen::MatrixXd(state.covariance(there, there)).inverse() * cross.transpose();
       const Eigen::VectorXf said =
-          tables->states[index].explained_variance.col(static_cast<Eigen::Index>(stage));
+          tables->states[index].explained_variance.col(static_cast<Eigen::Index>(depth));
       EXPECT_LT((said.cast<double>() - direct.diagonal()).cwiseAbs().maxCoeff(), 1e-5);
     }
 }

@@ -32,7 +32,7 @@ bool becomes_free(TableMaker& maker, const std::vector<bool>& missing) {
 
 void expect_same(const StateTables& a, const StateTables& b) {
   EXPECT_EQ(a.kept, b.kept);
-  EXPECT_EQ(a.stages, b.stages);
+  EXPECT_EQ(a.depths, b.depths);
   EXPECT_EQ(a.first_state, b.first_state);
   EXPECT_EQ(a.successors, b.successors);
   EXPECT_EQ(a.label_duration, b.label_duration);
@@ -44,8 +44,8 @@ void expect_same(const StateTables& a, const StateTables& b) {
     EXPECT_EQ(a.states[i].gain, b.states[i].gain);
     EXPECT_EQ(a.states[i].explained_variance, b.states[i].explained_variance);
     EXPECT_EQ(a.states[i].style_bias, b.states[i].style_bias);
-    for (std::size_t stage = 0; stage < a.stages.size(); ++stage)
-      EXPECT_EQ(a.states[i].style_weights[stage], b.states[i].style_weights[stage]);
+    for (std::size_t depth = 0; depth < a.depths.size(); ++depth)
+      EXPECT_EQ(a.states[i].style_weights[depth], b.states[i].style_weights[depth]);
   }
 }
 

@@ -144,7 +144,7 @@ TEST(StepWalker, refuses_labels_that_are_not_there_and_more_than_its_queue_holds
   EXPECT_FALSE(walker.queue(2));
   for (int i = 0; i < LabelQueue::capacity; ++i) EXPECT_TRUE(walker.queue(i % 2));
   EXPECT_FALSE(walker.queue(right));
-  walker.clear_queue();
+  walker.reset();
   EXPECT_EQ(walker.queued(), 0);
 }
 

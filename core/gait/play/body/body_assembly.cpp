@@ -3,8 +3,6 @@
 #include <algorithm>
 #include <cmath>
 
-#include "gait/play/synthesise/falling_in_step.h"
-
 namespace gait {
 
 namespace {
@@ -12,6 +10,14 @@ namespace {
 bool usable(std::span<const float> values, Eigen::Index size) noexcept {
   return static_cast<Eigen::Index>(values.size()) == size &&
          std::ranges::all_of(values, [](float value) { return std::isfinite(value); });
+}
+
+// The values of a frame's rotations, to where a whole pose has their joints.
+void place(const StreamLayout& layout, std::span<const float> values,
+           Eigen::VectorXf& pose) noexcept {
+  for (const StreamPlace& stream : layout)
+    if (stream.joint >= 0)
+      std::copy_n(values.data() + stream.begin, 3, pose.data() + 3 * stream.joint);
 }
 
 // Three values per joint: the mean pose of training, the references where nothing is known.
@@ -23,25 +29,14 @@ Eigen::VectorXf mean_pose(const Model& model) {
 
 BodyAssembly::BodyAssembly(std::shared_ptr<const Model> model)
     : model_(std::move(model)),
+      inputs_(StreamLayout::of_inputs(*model_)),
+      outputs_(StreamLayout::of_outputs(*model_)),
       measured_(mean_pose(*model_)),
-      hand_over_(std::vector<Stream>(static_cast<std::size_t>(model_->body->skeleton.size())),
-                 model_->frame_rate, hand_over_seconds),
+      hand_over_(StreamLayout::of_body(*model_->body), model_->frame_rate),
       stored_(mean_pose(*model_)),
       taken_(stored_),
       shown_(stored_),
-      before_(stored_) {
-  const auto find = [](const std::vector<Stream>& streams, const std::vector<int>& joints,
-                       std::vector<Part>& parts) {
-    int begin = 0;
-    auto joint = joints.begin();
-    for (const Stream& stream : streams) {
-      if (stream.kind == StreamKind::rotation) parts.push_back({begin, *joint++});
-      begin += stream.size;
-    }
-  };
-  find(model_->inputs, model_->body->input_joints, inputs_);
-  find(model_->outputs, model_->body->output_joints, outputs_);
-}
+      before_(stored_) {}
 
 void BodyAssembly::reset() noexcept {
   measured_.reset();
@@ -53,8 +48,7 @@ void BodyAssembly::reset() noexcept {
 
 bool BodyAssembly::store_inputs(std::span<const float> values) noexcept {
   if (!usable(values, model_->input.values)) return false;
-  for (const Part& part : inputs_)
-    std::copy_n(values.data() + part.begin, 3, stored_.data() + 3 * part.joint);
+  place(inputs_, values, stored_);
   measured_.store({stored_.data(), static_cast<std::size_t>(stored_.size())});
   return true;
 }
@@ -70,8 +64,7 @@ bool BodyAssembly::take_outputs(std::span<const float> values) noexcept {
   if (!usable(values, model_->output.values)) return false;
   measured_.mark();
   std::ranges::copy(measured_.at(delay_), taken_.data());
-  for (const Part& part : outputs_)
-    std::copy_n(values.data() + part.begin, 3, taken_.data() + 3 * part.joint);
+  place(outputs_, values, taken_);
   show(Source::parts);
   return true;
 }

@@ -1,9 +1,9 @@
-// One body from its parts: synthesised output joints with the measured input joints they belong to,
-// or whole poses; whichever came last.
+// One body from its parts: synthesised output joints with the measured input joints that they were
+// made from, or a whole pose; the one that came last is shown.
 //
-// Measured frames wait until the outputs made from them arrive (delay). When whole poses take over
-// from outputs with measured inputs, as when the input is lost and a walker goes on alone, and when
-// that ends, nothing jumps: the difference fades within half a second, the speed goes on.
+// Measured frames are delayed until the outputs made from them arrive. When whole poses take over
+// from parts, as when the input is lost and a walker goes on alone, and when parts take over again,
+// nothing jumps: the change is inertialised (StreamHandOver) over half a second.
 //
 // Values are rotation vectors relative to the model's references (radians), three per joint.
 // Nothing allocates after construction.
@@ -13,7 +13,7 @@
 #include <memory>
 #include <span>
 
-#include "gait/model/model.h"
+#include "gait/model/stream_layout.h"
 #include "gait/play/body/delayed_frames.h"
 #include "gait/play/change/stream_hand_over.h"
 
@@ -38,19 +38,15 @@ class BodyAssembly {
   const Eigen::VectorXf& values() const noexcept { return shown_; }
   // Whether that was a whole pose, or is still on its way from or to one.
   bool whole() const noexcept { return source_ == Source::whole || !hand_over_.over(); }
-  int values_per_frame() const noexcept { return static_cast<int>(shown_.size()); }
   void reset() noexcept;
 
  private:
   enum class Source { none, parts, whole };
-  struct Part {  // of a stream
-    int begin = 0, joint = 0;
-  };
 
   void show(Source source) noexcept;
 
   std::shared_ptr<const Model> model_;
-  std::vector<Part> inputs_, outputs_;
+  StreamLayout inputs_, outputs_;
   DelayedFrames measured_;
   StreamHandOver hand_over_;
   int delay_ = 0;

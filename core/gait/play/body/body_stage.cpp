@@ -4,7 +4,6 @@
 #include <cmath>
 #include <numbers>
 
-#include "gait/error.h"
 #include "gait/model/body_pose.h"
 #include "gait/motion/rotation.h"
 
@@ -14,31 +13,14 @@ namespace {
 
 // Within this time a body comes to a stop, or starts.
 constexpr float stopping_seconds = 0.2f;
-// After a hand-over its root is less and less gentle.
-constexpr float gentle_seconds = 0.7f;
-
-const std::shared_ptr<const Model>& with_body(const std::shared_ptr<const Model>& model) {
-  if (!model->body)
-    throw Error("model " + model->name +
-                ": expected a model of a body; its streams are plain values");
-  return model;
-}
-
-// Thigh and shank, whatever joints a rig has between hip and ankle.
-float leg_length(const Model& model) {
-  const Leg leg = body_roles(*model.body).right;
-  const auto& joints = model.body->skeleton.joints;
-  double length = 0;
-  for (int joint = leg.foot; joint >= 0 && joint != leg.thigh; joint = joints[joint].parent)
-    length += joints[joint].offset.norm();
-  return static_cast<float>(length);
-}
+// Within this time after a whole pose the root stops being gentle, as feet are locked no longer.
+constexpr float unlocking_seconds = 0.7f;
 
 }  // namespace
 
 BodyStage::BodyStage(std::shared_ptr<const Model> model)
-    : model_(with_body(model)),
-      hips_(body_roles(*model_->body).hips),
+    : model_(std::move(model)),
+      hips_(body_roles(required_body(*model_)).hips),
       period_(static_cast<float>(1 / model_->frame_rate)),
       assembly_(model_),
       roots_(Eigen::VectorXf::Zero(4)),
@@ -47,12 +29,12 @@ BodyStage::BodyStage(std::shared_ptr<const Model> model)
       foot_lock_(model_->body->skeleton, body_roles(*model_->body), model_->frame_rate),
       meter_(*model_) {
   const Body& body = *model_->body;
-  model_leg_ = std::max(1e-3f, leg_length(*model_));
   const JointRoles roles = body_roles(body);
+  model_leg_ = std::max(1e-3f, static_cast<float>(leg_length(body.skeleton, roles)));
   for (const Leg& leg : {roles.right, roles.left})
     for (const int joint : {leg.thigh, leg.shank, leg.foot})
       leg_joints_.push_back(static_cast<std::size_t>(joint));
-  for (const auto& reference : body.references) references_.push_back(reference.cast<float>());
+  references_ = float_references(body);
   for (const Joint& joint : body.skeleton.joints) {
     offsets_.push_back(joint.offset.cast<float>());
     parents_.push_back(joint.parent);
@@ -69,7 +51,8 @@ BodyStage::BodyStage(std::shared_ptr<const Model> model)
       bones_.push_back({joint, body.skeleton.size() + static_cast<int>(tips_.size())});
       tips_.push_back({static_cast<std::size_t>(joint), tip.cast<float>()});
     }
-  pose_ = world_ = references_;
+  pose_ = references_;
+  world_.resize(pose_.size());
   values_ = assembly_.values();
   positions_.assign(3 * (pose_.size() + tips_.size()), 0.0f);
 }
@@ -146,12 +129,10 @@ void BodyStage::reset() noexcept {
 void BodyStage::make() noexcept {
   roots_.mark();
   values_ = assembly_.values();
-  for (std::size_t joint = 0; joint < pose_.size(); ++joint)
-    pose_[joint] = rotation_from<float>(std::span<const float, 3>(values_.data() + 3 * joint, 3),
-                                        references_[joint]);
+  pose_from<float>(pose(), references_, pose_);
   if (filter_.on()) {
     filter_.apply(pose_);
-    for (std::size_t joint = 0; joint < pose_.size(); ++joint) tell_values(joint);
+    pose_vector<float>(pose_, references_, {values_.data(), 3 * pose_.size()});
   }
   meter_.advance(pose_);
   move();
@@ -168,7 +149,7 @@ void BodyStage::move() noexcept {
   heading_ = std::remainder(heading_ + going_.value() * heading_rate_ * period_,
                             2 * std::numbers::pi_v<float>);
   const Eigen::Vector3f before = walked_;
-  gentle_ = assembly_.whole() ? 1 : std::max(0.0f, gentle_ - period_ / gentle_seconds);
+  gentle_ = assembly_.whole() ? 1 : std::max(0.0f, gentle_ - period_ / unlocking_seconds);
   motion_.set_gentle(may_lock() ? gentle_ : 0);
   walked_ = motion_.advance(pose_, heading_);
   if (started_ && from_ == RootFrom::feet) {
@@ -192,12 +173,8 @@ void BodyStage::move() noexcept {
 void BodyStage::hold_feet() noexcept {
   foot_lock_.apply(pose_, motion_, heading_, may_lock() && assembly_.whole() ? going_.value() : 0);
   if (!foot_lock_.corrected()) return;
-  for (const std::size_t joint : leg_joints_) tell_values(joint);
-}
-
-void BodyStage::tell_values(std::size_t joint) noexcept {
-  values_.segment<3>(3 * static_cast<Eigen::Index>(joint)) =
-      rotation_vector<float>(references_[joint].conjugate() * pose_[joint]);
+  for (const std::size_t joint : leg_joints_)
+    values_from<float>(pose_[joint], references_[joint], values_.data() + 3 * joint);
 }
 
 void BodyStage::watch_feet() noexcept {
@@ -215,25 +192,18 @@ void BodyStage::watch_feet() noexcept {
 
 void BodyStage::place_joints() noexcept {
   for (std::size_t joint = 0; joint < pose_.size(); ++joint) {
-    Eigen::Vector3f place = root_.hips;
-    if (above_[joint]) {  // rigs put empty roots above the hips: on the ground below them
-      place.y() = place_.y();
-      world_[joint].setIdentity();
-    } else if (static_cast<int>(joint) == hips_) {
-      world_[joint] = about_vertical(root_.heading) * pose_[joint];
-    } else {
-      const auto parent = static_cast<std::size_t>(parents_[joint]);
-      const Eigen::Vector3f above(positions_[3 * parent], positions_[3 * parent + 1],
-                                  positions_[3 * parent + 2]);
-      world_[joint] = world_[parent] * pose_[joint];
-      place = above + scale_ * (world_[parent] * offsets_[joint]);
-    }
-    std::copy_n(place.data(), 3, positions_.data() + 3 * joint);
+    Placement<float>& placed = world_[joint];
+    if (above_[joint])  // rigs put empty roots above the hips: on the ground below them
+      placed = {Eigen::Quaternionf::Identity(), {root_.hips.x(), place_.y(), root_.hips.z()}};
+    else if (static_cast<int>(joint) == hips_)
+      placed = {about_vertical(root_.heading) * pose_[joint], root_.hips};
+    else
+      placed = placed_under(world_[parents_[joint]], pose_[joint], offsets_[joint], scale_);
+    std::copy_n(placed.place.data(), 3, positions_.data() + 3 * joint);
   }
   for (std::size_t i = 0; i < tips_.size(); ++i) {
-    const auto& [joint, offset] = tips_[i];
-    const Eigen::Vector3f place =
-        Eigen::Vector3f(positions_.data() + 3 * joint) + scale_ * (world_[joint] * offset);
+    const Placement<float>& joint = world_[tips_[i].joint];
+    const Eigen::Vector3f place = joint.place + scale_ * (joint.rotation * tips_[i].offset);
     std::copy_n(place.data(), 3, positions_.data() + 3 * (pose_.size() + i));
   }
 }

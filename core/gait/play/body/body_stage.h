@@ -1,13 +1,14 @@
-// A body on stage: its parts put together (BodyAssembly), smoothed on request, walking over the
-// ground, and what can be seen of it: where its joints are, when its feet touch, how lively it is.
+// A body on stage. It joins measured and synthesised joints (BodyAssembly), smooths them on
+// request, moves the body over the ground, and reports what can be seen: places of joints, touches
+// of feet, speeds and energy.
 //
-// The root comes from the feet, or is what was measured with the pose, or walks on the spot. Where
-// it comes from the feet and nobody was measured, for a whole pose is shown, they stay where they
-// stand: the legs are corrected for it (FootLock). Outputs are shown as they were made, but for
-// two seconds after whole poses went over to them: the root goes over gently, feet that stand or
-// would sink are put where they belong, and that fades. The path from the feet goes on from
-// wherever it is: a body that does not walk (stands, turns on the spot) stays where it is, without
-// a jerk when it stops or starts. One frame is 1 / model.frame_rate, whoever sends it.
+// The root's path comes from the feet (RootMotion), is the one measured with the pose, or stays on
+// the spot. Whole poses have no measured root: their root comes from the feet, and the legs are
+// corrected such that feet in stance do not move (FootLock). Synthesised outputs are shown
+// uncorrected, except for the first seconds after whole poses: the root then changes over gently,
+// feet in stance or below the ground are corrected, and the correction fades. A body that does not
+// walk (it stands, or turns on the spot) stays where it is; it stops and starts without a jerk, and
+// its path goes on from there. One frame lasts 1 / model.frame_rate, whatever the sender's rate.
 //
 // Metres, seconds, radians; Y up; values per joint as rotation vectors relative to the references.
 // Nothing allocates, throws or locks after construction.
@@ -34,8 +35,8 @@ namespace gait {
 
 enum class RootFrom {
   feet,  // the path that the feet walk
-  keep,  // as measured; by the feet while nothing was measured
-  still  // on the spot: only up and down as the feet say
+  keep,  // the measured one; the feet's until one is measured
+  still  // on the spot: the feet give its height only
 };
 
 struct RootPlace {
@@ -102,7 +103,6 @@ class BodyStage {
   bool may_lock() const noexcept { return lock_ && from_ == RootFrom::feet; }
   void move() noexcept;
   void hold_feet() noexcept;
-  void tell_values(std::size_t joint) noexcept;
   void watch_feet() noexcept;
   void place_joints() noexcept;
 
@@ -139,7 +139,8 @@ class BodyStage {
   Eigen::Vector3d path_ = Eigen::Vector3d::Zero();    // of the hips, from the place, unscaled
   Eigen::Vector3f walked_ = Eigen::Vector3f::Zero();  // by the feet, whether it may go or not
 
-  std::vector<Eigen::Quaternionf> pose_, world_;
+  std::vector<Eigen::Quaternionf> pose_;
+  std::vector<Placement<float>> world_;
   Eigen::VectorXf values_;
   std::vector<float> positions_;
   RootPlace root_;

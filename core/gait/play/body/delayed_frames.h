@@ -23,7 +23,6 @@ class DelayedFrames {
   void mark() noexcept;
   // The frame that belongs to the last mark when that one is late by `delay` marks.
   std::span<const float> at(int delay) const noexcept;
-  std::span<const float> newest() const noexcept { return frame(stored_); }
   bool any() const noexcept { return stored_ > 0; }  // whether one was stored
   void reset() noexcept;                             // to `first`
 

@@ -106,7 +106,7 @@ void FootLock::apply(std::span<Eigen::Quaternionf> pose, const RootMotion& root,
   }
   const LegChain &right = legs_[index(Foot::right)], &left = legs_[index(Foot::left)];
   const Eigen::Vector3f leftward =
-      (left.links[left.thigh].place - right.links[right.thigh].place).normalized();
+      (left.links[left.thigh].world.place - right.links[right.thigh].world.place).normalized();
   for (LegChain& leg : legs_) reach(leg, pose, hips, leftward);
 }
 
@@ -136,14 +136,9 @@ void FootLock::hold(LegChain& leg, const RootMotion::Sole& sole, float haste,
 
 void FootLock::place(LegChain& leg, std::span<const Eigen::Quaternionf> pose,
                      const Eigen::Quaternionf& hips) noexcept {
-  Eigen::Quaternionf rotation = hips;
-  Eigen::Vector3f at = Eigen::Vector3f::Zero();
-  for (Link& link : leg.links) {
-    at += rotation * link.offset;
-    rotation = rotation * pose[link.joint];
-    link.place = at;
-    link.rotation = rotation;
-  }
+  Placement<float> above{hips, Eigen::Vector3f::Zero()};
+  for (Link& link : leg.links)
+    above = link.world = placed_under(above, pose[link.joint], link.offset);
 }
 
 void FootLock::reach(LegChain& leg, std::span<Eigen::Quaternionf> pose,
@@ -151,8 +146,9 @@ void FootLock::reach(LegChain& leg, std::span<Eigen::Quaternionf> pose,
   const Eigen::Vector3f correction = leg.correction + leg.lift * Eigen::Vector3f::UnitY();
   leg.corrected = false;
   const Link &thigh = leg.links[leg.thigh], &shank = leg.links[leg.shank], &foot = leg.links.back();
-  const Eigen::Vector3f upper = shank.place - thigh.place, lower = foot.place - shank.place,
-                        ankle = foot.place - thigh.place;
+  const Eigen::Vector3f upper = shank.world.place - thigh.world.place,
+                        lower = foot.world.place - shank.world.place,
+                        ankle = foot.world.place - thigh.world.place;
   const float squared = ankle.squaredNorm(), bones = upper.norm() * lower.norm();
   if (!(squared > 0 && bones > 0)) return;
 
@@ -197,11 +193,11 @@ void FootLock::reach(LegChain& leg, std::span<Eigen::Quaternionf> pose,
   const Eigen::Quaternionf at_knee(Eigen::AngleAxisf(shown - bend, axis));
   const Eigen::Quaternionf at_hip =
       turn_between((upper + at_knee * lower).cast<double>(), target.cast<double>()).cast<float>();
-  const auto above = [&](std::size_t i) { return i > 0 ? leg.links[i - 1].rotation : hips; };
+  const auto above = [&](std::size_t i) { return i > 0 ? leg.links[i - 1].world.rotation : hips; };
   const Eigen::Quaternionf above_foot = at_hip * at_knee * above(leg.links.size() - 1);
-  pose[thigh.joint] = (above(leg.thigh).conjugate() * at_hip * thigh.rotation).normalized();
-  pose[shank.joint] = (above(leg.shank).conjugate() * at_knee * shank.rotation).normalized();
-  pose[foot.joint] = (above_foot.conjugate() * foot.rotation).normalized();
+  pose[thigh.joint] = (above(leg.thigh).conjugate() * at_hip * thigh.world.rotation).normalized();
+  pose[shank.joint] = (above(leg.shank).conjugate() * at_knee * shank.world.rotation).normalized();
+  pose[foot.joint] = (above_foot.conjugate() * foot.world.rotation).normalized();
 }
 
 }  // namespace gait

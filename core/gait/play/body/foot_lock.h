@@ -25,6 +25,7 @@
 #include <vector>
 
 #include "gait/motion/joint_roles.h"
+#include "gait/motion/kinematics.h"
 #include "gait/motion/skeleton.h"
 #include "gait/play/body/root_motion.h"
 
@@ -59,8 +60,7 @@ class FootLock {
   struct Link {  // a joint on the way from the hips to the foot
     int joint = 0;
     Eigen::Vector3f offset = Eigen::Vector3f::Zero();
-    Eigen::Quaternionf rotation = Eigen::Quaternionf::Identity();  // in the world
-    Eigen::Vector3f place = Eigen::Vector3f::Zero();               // from the hips, same axes
+    Placement<float> world;  // from the hips, in the world's axes
   };
   struct LegChain {
     std::vector<Link> links;  // the last one is the foot

@@ -23,14 +23,13 @@ class MotionMeter {
   void advance(std::span<const Eigen::Quaternionf> pose) noexcept;
   float speed(int joint) const noexcept {
     return speeds_[static_cast<std::size_t>(joint)];
-  }                                                        // rad/s
-  float energy() const noexcept { return energy_; }        // 0 to 1
-  float liveliest() const noexcept { return liveliest_; }  // what energy 1 is, rad/s per joint
+  }                                                  // rad/s
+  float energy() const noexcept { return energy_; }  // 0 to 1
   void reset() noexcept;
 
  private:
-  float rate_, share_, liveliest_;
-  std::vector<int> joints_;  // of the model's streams
+  float rate_, share_, liveliest_;  // the last one: what energy 1 is, rad/s per joint
+  std::vector<int> joints_;         // of the model's streams
   bool started_ = false;
   std::vector<Eigen::Quaternionf> before_;
   std::vector<float> speeds_;

@@ -32,8 +32,8 @@ constexpr float starting_seconds = 0.3f;    // until pins are believed enough to
 constexpr float brisk = 1.4f;               // m/s
 constexpr double recovery_seconds = 0.2;    // what the root is behind its pins is made up for in
 constexpr double gentle_recovery_seconds = 0.5;
-constexpr double gentle_seconds = 0.05;  // of lag in speed where legs take it up
-constexpr double same_point = 0.005;     // m
+constexpr double gentle_lag_seconds = 0.05;  // in speed, where legs take it up
+constexpr double same_point = 0.005;         // m
 
 // How hard the root is pushed after its pins: m/s², and more per metre that it is behind. Captured
 // hips of clean walks reach 14 m/s² in one frame of a thousand, the built-in ones' 6.
@@ -67,7 +67,7 @@ RootMotion::RootMotion(const Skeleton& skeleton, const JointRoles& roles, double
   travel_gain_ = gain(frame_rate, travel_seconds);
   height_gain_ = gain(frame_rate, height_seconds);
   recovery_gain_ = gain(frame_rate, recovery_seconds);
-  gentle_gain_ = gain(frame_rate, gentle_seconds);
+  gentle_gain_ = gain(frame_rate, gentle_lag_seconds);
   gentle_recovery_gain_ = gain(frame_rate, gentle_recovery_seconds);
   add_points(skeleton, roles.hips, roles.right.foot, Foot::right);
   add_points(skeleton, roles.hips, roles.left.foot, Foot::left);
@@ -152,18 +152,16 @@ bool RootMotion::place_points(std::span<const Eigen::Quaternionf> pose, float he
     if (!pose[link.joint].coeffs().allFinite()) return false;
 
   for (Link& link : links_) {
-    if (link.parent < 0) {
-      link.rotation = about_vertical(heading) * pose[link.joint];
-      continue;
-    }
-    const Link& parent = links_[link.parent];
-    link.rotation = parent.rotation * pose[link.joint];
-    link.place = parent.place + parent.rotation * link.offset;
+    if (link.parent < 0)
+      link.world.rotation = about_vertical(heading) * pose[link.joint];
+    else
+      link.world = placed_under(links_[link.parent].world, pose[link.joint], link.offset);
   }
   lowest_ = std::numeric_limits<float>::max();
   for (Point& point : points_) {
     point.before = point.place;
-    point.place = links_[point.link].place + links_[point.link].rotation * point.offset;
+    const Placement<float>& above = links_[point.link].world;
+    point.place = above.place + above.rotation * point.offset;
     lowest_ = std::min(lowest_, point.place.y());
   }
   return true;

@@ -27,6 +27,7 @@
 #include <vector>
 
 #include "gait/motion/joint_roles.h"
+#include "gait/motion/kinematics.h"
 #include "gait/motion/skeleton.h"
 #include "gait/motion/steps.h"
 
@@ -74,8 +75,7 @@ class RootMotion {
   struct Link {                   // a joint on the way from the hips to a toe
     int joint = -1, parent = -1;  // parent: index of a link; -1 for the hips themselves
     Eigen::Vector3f offset = Eigen::Vector3f::Zero();
-    Eigen::Quaternionf rotation = Eigen::Quaternionf::Identity();  // in the world
-    Eigen::Vector3f place = Eigen::Vector3f::Zero();  // from the hips, in the world's axes
+    Placement<float> world;  // from the hips, in the world's axes
   };
   struct Point {  // may touch the ground
     Foot foot = Foot::right;

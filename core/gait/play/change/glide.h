@@ -1,5 +1,6 @@
-// A control on its way to where it was set: two equal lags one after the other, so that neither the
-// value nor its speed ever jumps, and what goes through between two values stays between them.
+// A critically damped smoother: a control on its way to where it was set, by two equal first-order
+// lags in series. Neither the value nor its speed ever jumps, and no value between start and target
+// is overshot.
 #pragma once
 
 #include <cmath>

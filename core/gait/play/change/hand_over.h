@@ -1,5 +1,5 @@
-// Hand-over from one motion to another without a jump: what the old one differs by at that moment,
-// in place and in speed, fades away while the new one goes on.
+// Inertialisation: a hand-over from one motion to another without a jump. What the old motion
+// differs by at that moment, in place and in speed, fades away while the new one goes on.
 //
 // A quintic: x(0) and x'(0) as they are, x''(0) = x(1) = x'(1) = x''(1) = 0. It needs no second
 // motion to fade from, and a hand-over in the middle of another is as smooth.
@@ -8,6 +8,8 @@
 #include <Eigen/Core>
 
 namespace gait {
+
+inline constexpr double hand_over_seconds = 0.5;  // about one step
 
 class HandOver {
  public:

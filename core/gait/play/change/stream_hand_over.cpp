@@ -4,19 +4,15 @@
 
 namespace gait {
 
-StreamHandOver::StreamHandOver(const std::vector<Stream>& streams, double frame_rate,
-                               double seconds)
-    : hand_over_(values_of(streams), frame_rate, seconds),
-      offset_(Eigen::VectorXf::Zero(values_of(streams))),
+StreamHandOver::StreamHandOver(const StreamLayout& layout, double frame_rate)
+    : hand_over_(layout.values(), frame_rate, hand_over_seconds),
+      offset_(Eigen::VectorXf::Zero(layout.values())),
       offset_before_(offset_) {
-  Eigen::Index at = 0;
-  for (const Stream& stream : streams) {
-    if (stream.kind == StreamKind::rotation)
-      rotations_.push_back(at);
+  for (const StreamPlace& place : layout)
+    if (place.turns())
+      rotations_.push_back(place.begin);
     else
-      for (int i = 0; i < stream.size; ++i) plain_.push_back(at + i);
-    at += stream.size;
-  }
+      for (int i = 0; i < place.size; ++i) plain_.push_back(place.begin + i);
 }
 
 void StreamHandOver::difference(const Values& shown, const Values& motion,

@@ -1,5 +1,5 @@
-// Hand-over of whole frames from one motion to another (hand_over.h): rotations turn from the one
-// to the other, plain values go linearly.
+// Inertialisation of whole frames (hand_over.h), from one motion to another: rotations turn from
+// the one to the other, plain values go linearly.
 //
 // Frames are values in the streams' order, rotations as rotation vectors (radians). Once it is
 // over, frames are the new motion's, untouched. Nothing allocates after construction.
@@ -8,7 +8,7 @@
 #include <Eigen/Core>
 #include <vector>
 
-#include "gait/model/model.h"
+#include "gait/model/stream_layout.h"
 #include "gait/play/change/hand_over.h"
 
 namespace gait {
@@ -17,7 +17,7 @@ class StreamHandOver {
  public:
   using Values = Eigen::Ref<const Eigen::VectorXf>;
 
-  StreamHandOver(const std::vector<Stream>& streams, double frame_rate, double seconds);
+  StreamHandOver(const StreamLayout& layout, double frame_rate);
 
   // `shown`, `motion`: the last frame of what was shown and of what goes on; `..._before`: the ones
   // before.

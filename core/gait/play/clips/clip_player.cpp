@@ -2,21 +2,12 @@
 
 #include <algorithm>
 #include <cmath>
-#include <numeric>
-
-#include "gait/error.h"
 
 namespace gait {
 
 namespace {
 
 constexpr double hair = 1e-3;  // of a frame: closer moments are the same
-
-const Body& body_of(const Model& model) {
-  if (!model.body)
-    throw Error("model " + model.name + ": expected a model of a body; its streams are plain");
-  return *model.body;
-}
 
 // A moment between two frames.
 struct Between {
@@ -43,13 +34,10 @@ Eigen::Vector3d turned(const Eigen::Vector3d& place, double angle) {
 
 ClipPlayer::ClipPlayer(std::shared_ptr<const Model> model)
     : model_(std::move(model)),
-      all_joints_(body_of(*model_).skeleton.joints.size()),
+      references_(float_references(required_body(*model_))),
+      rotations_(references_),
       inputs_(3 * model_->body->input_joints.size()),
-      pose_(3 * all_joints_.size()) {
-  std::iota(all_joints_.begin(), all_joints_.end(), 0);
-  for (const auto& reference : model_->body->references)
-    references_.push_back(reference.cast<float>());
-  rotations_ = references_;
+      pose_(3 * references_.size()) {
   frame_.inputs = inputs_;
   frame_.pose = pose_;
 }
@@ -193,7 +181,7 @@ void ClipPlayer::make_frame() noexcept {
                             : slerp(before[joint], after[joint], static_cast<float>(moment.share));
   const Body& body = *model_->body;
   pose_vector<float>(rotations_, references_, body.input_joints, inputs_);
-  pose_vector<float>(rotations_, references_, all_joints_, pose_);
+  pose_vector<float>(rotations_, references_, pose_);
   const Place place = place_in_world(time_);
   frame_.time = time_;
   frame_.hips = place.hips.cast<float>();

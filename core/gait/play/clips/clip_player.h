@@ -74,7 +74,6 @@ class ClipPlayer {
 
   std::shared_ptr<const Model> model_;
   std::vector<Eigen::Quaternionf> references_;
-  std::vector<int> all_joints_;
   std::shared_ptr<const BodyMotion> motion_;
 
   double speed_ = 1;

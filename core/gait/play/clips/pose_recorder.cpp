@@ -6,7 +6,6 @@
 #include <numeric>
 #include <utility>
 
-#include "gait/error.h"
 #include "gait/play/body/root_motion.h"
 
 namespace gait {
@@ -15,28 +14,52 @@ namespace {
 
 constexpr double block_seconds = 30;
 
-const Body& body_of(const Model& model) {
-  if (!model.body)
-    throw Error("model " + model.name + ": expected a model of a body; its streams are plain");
-  return *model.body;
+}  // namespace
+
+PoseRecorder::BlockMaker::BlockMaker(int frames, std::size_t joints)
+    : frames_(static_cast<std::size_t>(frames)), joints_(joints) {
+  worker_ = JoiningThread([this] { work(); });
 }
 
-}  // namespace
+PoseRecorder::BlockMaker::~BlockMaker() {
+  state_.store(State::closing);
+  state_.notify_all();
+}
+
+void PoseRecorder::BlockMaker::work() {
+  for (State state = state_.load(); state != State::closing; state = state_.load()) {
+    if (state == State::made) {
+      state_.wait(State::made);
+      continue;
+    }
+    block_ = Block(frames_, joints_);
+    State expected = State::wanted;
+    state_.compare_exchange_strong(expected, State::made);
+  }
+}
+
+PoseRecorder::Block PoseRecorder::BlockMaker::take() {
+  if (!made()) return Block(frames_, joints_);
+  Block block = std::move(block_);
+  state_.store(State::wanted);
+  state_.notify_all();
+  return block;
+}
 
 PoseRecorder::PoseRecorder(std::shared_ptr<const Model> model)
     : model_(std::move(model)),
-      all_joints_(body_of(*model_).skeleton.joints.size()),
+      references_(float_references(required_body(*model_))),
+      all_joints_(references_.size()),
       block_frames_(std::max(1, static_cast<int>(std::lround(block_seconds * model_->frame_rate)))),
-      most_frames_(static_cast<int>(std::lround(longest_seconds * model_->frame_rate))) {
+      most_frames_(static_cast<int>(std::lround(longest_seconds * model_->frame_rate))),
+      maker_(block_frames_, references_.size()) {
   std::iota(all_joints_.begin(), all_joints_.end(), 0);
-  for (const auto& reference : model_->body->references)
-    references_.push_back(reference.cast<float>());
-  blocks_.reserve(static_cast<std::size_t>(most_frames_ / block_frames_ + 1));
   clear();
 }
 
 void PoseRecorder::clear() {
   blocks_.clear();
+  blocks_.reserve(static_cast<std::size_t>(most_frames_ / block_frames_ + 1));
   frames_ = 0;
   inputs_wait_ = root_told_ = false;
   pose_ = references_;
@@ -44,7 +67,7 @@ void PoseRecorder::clear() {
   heading_ = 0;
 }
 
-bool PoseRecorder::take(std::span<const float> values, std::span<const int> joints) {
+bool PoseRecorder::take(std::span<const float> values, std::span<const int> joints) noexcept {
   if (values.size() != 3 * joints.size()) return false;
   if (!std::all_of(values.begin(), values.end(), [](float value) { return std::isfinite(value); }))
     return false;
@@ -54,32 +77,27 @@ bool PoseRecorder::take(std::span<const float> values, std::span<const int> join
   return true;
 }
 
-bool PoseRecorder::take_pose(std::span<const float> values, double time) {
+bool PoseRecorder::take_pose(std::span<const float> values, double time) noexcept {
   if (full() || !take(values, all_joints_)) return false;
-  inputs_wait_ = false;
-  last_time_ = time;
-  return keep();
+  keep(time);
+  return true;
 }
 
-bool PoseRecorder::take_outputs(std::span<const float> values, double time) {
+bool PoseRecorder::take_outputs(std::span<const float> values, double time) noexcept {
   if (full() || !take(values, model_->body->output_joints)) return false;
-  inputs_wait_ = false;
-  last_time_ = time;
-  return keep();
+  keep(time);
+  return true;
 }
 
-bool PoseRecorder::take_inputs(std::span<const float> values, double time) {
+bool PoseRecorder::take_inputs(std::span<const float> values, double time) noexcept {
   if (full() || values.size() != 3 * model_->body->input_joints.size()) return false;
-  if (inputs_wait_) {
-    last_time_ = inputs_time_;
-    keep();
-  }
+  if (inputs_wait_) keep(inputs_time_);
   inputs_wait_ = take(values, model_->body->input_joints);
   inputs_time_ = time;
   return inputs_wait_;
 }
 
-bool PoseRecorder::take_root(const Eigen::Vector3f& hips, float heading) {
+bool PoseRecorder::take_root(const Eigen::Vector3f& hips, float heading) noexcept {
   if (full() || !hips.allFinite() || !std::isfinite(heading)) return false;
   hips_ = hips;
   heading_ = heading;
@@ -87,27 +105,20 @@ bool PoseRecorder::take_root(const Eigen::Vector3f& hips, float heading) {
   return true;
 }
 
-bool PoseRecorder::keep() {
-  if (frames_ % block_frames_ == 0) {
-    Block& block = blocks_.emplace_back();
-    const auto frames = static_cast<std::size_t>(block_frames_);
-    block.rotations.reserve(frames * pose_.size());
-    block.hips.reserve(frames);
-    block.heading.reserve(frames);
-  }
+void PoseRecorder::keep(double time) noexcept {
+  const auto row = static_cast<std::size_t>(frames_ % block_frames_);
+  if (row == 0) blocks_.push_back(maker_.take());
   Block& block = blocks_.back();
-  block.rotations.insert(block.rotations.end(), pose_.begin(), pose_.end());
-  block.hips.push_back(hips_);
-  block.heading.push_back(heading_);
-  if (frames_++ == 0) first_time_ = last_time_;
-  return true;
+  std::ranges::copy(pose_, block.rotations.begin() + static_cast<int>(row * pose_.size()));
+  block.hips[row] = hips_;
+  block.heading[row] = heading_;
+  inputs_wait_ = false;
+  last_time_ = time;
+  if (frames_++ == 0) first_time_ = time;
 }
 
 PoseRecorder::Recording PoseRecorder::finish() {
-  if (inputs_wait_ && !full()) {
-    last_time_ = inputs_time_;
-    keep();
-  }
+  if (inputs_wait_ && !full()) keep(inputs_time_);
   Recording recording;
   recording.model_ = model_;
   recording.blocks_ = std::exchange(blocks_, {});
@@ -115,7 +126,6 @@ PoseRecorder::Recording PoseRecorder::finish() {
   recording.frames_ = frames_;
   recording.seconds_ = last_time_ - first_time_;
   recording.root_told_ = root_told_;
-  blocks_.reserve(static_cast<std::size_t>(most_frames_ / block_frames_ + 1));
   clear();
   return recording;
 }
@@ -135,9 +145,12 @@ BodyMotion PoseRecorder::Recording::motion(const std::string& name) const {
   motion.frame_rate = frame_rate();
   motion.joints = body.skeleton.size();
   for (const Block& block : blocks_) {
-    motion.rotations.insert(motion.rotations.end(), block.rotations.begin(), block.rotations.end());
-    motion.hips.insert(motion.hips.end(), block.hips.begin(), block.hips.end());
-    motion.heading.insert(motion.heading.end(), block.heading.begin(), block.heading.end());
+    const int frames = std::min(block_frames_, frames_ - motion.frames());
+    motion.rotations.insert(motion.rotations.end(), block.rotations.begin(),
+                            block.rotations.begin() + frames * motion.joints);
+    motion.hips.insert(motion.hips.end(), block.hips.begin(), block.hips.begin() + frames);
+    motion.heading.insert(motion.heading.end(), block.heading.begin(),
+                          block.heading.begin() + frames);
   }
   for (std::size_t frame = 1; frame < motion.heading.size(); ++frame)  // unwrapped
     motion.heading[frame] = motion.heading[frame - 1] +

@@ -5,6 +5,7 @@
 #include <string>
 
 #include "gait/error.h"
+#include "gait/model/body_pose.h"
 #include "gait/motion/rotation.h"
 
 namespace gait {
@@ -56,8 +57,7 @@ std::shared_ptr<const CycleTables> make_cycle_tables(const CycleSpace& space, co
     tables->components.push_back(components.middleRows(k * values, values).cast<float>());
   }
   tables->joints = space.joints;
-  for (const Eigen::Quaterniond& reference : body.references)
-    tables->references.push_back(reference.cast<float>());
+  tables->references = float_references(body);
   return tables;
 }
 

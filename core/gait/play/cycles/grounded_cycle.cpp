@@ -105,13 +105,14 @@ Eigen::MatrixXd GroundedCycle::with_stride(const Eigen::MatrixXd& walking,
     const double ground_here = still_ground + share * (ground.height[k] - still_ground);
     for (int side = 0; side < 2; ++side) {
       const int foot = legs[side]->foot;
-      feet[side].push_back(slerp(still.world[foot], steps[k].world[foot], share));
+      feet[side].push_back(slerp(still.world[foot].rotation, steps[k].world[foot].rotation, share));
       // How low the sole lies under the ankle when the foot is turned so.
-      pose.local[foot] = pose.world[body_.skeleton.joints[foot].parent].conjugate() * feet[side][k];
+      pose.local[foot] =
+          pose.world[body_.skeleton.joints[foot].parent].rotation.conjugate() * feet[side][k];
       place(pose);
-      const double sole = pose.places[foot].y() - lowest(pose, soles_[side]);
+      const double sole = pose.world[foot].place.y() - lowest(pose, soles_[side]);
       Eigen::Vector3d ankle =
-          still.places[foot] + share * (steps[k].places[foot] - still.places[foot]);
+          still.world[foot].place + share * (steps[k].world[foot].place - still.world[foot].place);
       const double since_contact = static_cast<double>(k) / frames - 0.5 * side;
       const double power = 1 - (1 - lift_power) * swing(since_contact);
       ankle.y() = ground_here + std::pow(share, power) * ground.clearance[side][k] + sole;
@@ -138,11 +139,11 @@ Eigen::MatrixXd GroundedCycle::with_stride(const Eigen::MatrixXd& walking,
 // How far an ankle has to rise towards the hips to be within reach.
 double GroundedCycle::too_far(const Placed& pose, const Placed& step, const Leg& leg,
                               const Eigen::Vector3d& ankle) const {
-  const double straight = (pose.places[leg.shank] - pose.places[leg.thigh]).norm() +
-                          (pose.places[leg.foot] - pose.places[leg.shank]).norm();
-  const double captured = (step.places[leg.foot] - step.places[leg.thigh]).norm();
+  const double straight = (pose.world[leg.shank].place - pose.world[leg.thigh].place).norm() +
+                          (pose.world[leg.foot].place - pose.world[leg.shank].place).norm();
+  const double captured = (step.world[leg.foot].place - step.world[leg.thigh].place).norm();
   const double longest = std::max(longest_reach * straight, captured);
-  const Eigen::Vector3d from_thigh = ankle - pose.places[leg.thigh];
+  const Eigen::Vector3d from_thigh = ankle - pose.world[leg.thigh].place;
   const double ahead = std::hypot(from_thigh.x(), from_thigh.z());
   const double lowest_ankle = -std::sqrt(std::max(0.0, longest * longest - ahead * ahead));
   return std::max(0.0, lowest_ankle - from_thigh.y());
@@ -194,8 +195,7 @@ GroundedCycle::Placed GroundedCycle::placed(const Eigen::VectorXd& values) const
   for (std::size_t i = 0; i < joints_.size(); ++i)
     pose.local[joints_[i]] = rotation_from<double>(
         std::span<const double, 3>(values.data() + 3 * i, 3), body_.references[joints_[i]]);
-  pose.world = pose.local;
-  pose.places.resize(pose.local.size(), Eigen::Vector3d::Zero());
+  pose.world.resize(pose.local.size());
   place(pose);
   return pose;
 }
@@ -204,21 +204,19 @@ GroundedCycle::Placed GroundedCycle::placed(const Eigen::VectorXd& values) const
 void GroundedCycle::place(Placed& pose) const {
   for (int joint = roles_.hips; joint < body_.skeleton.size(); ++joint) {
     const Joint& bone = body_.skeleton.joints[joint];
-    if (joint == roles_.hips || bone.parent < roles_.hips) {
-      pose.world[joint] = pose.local[joint];
-      pose.places[joint].setZero();
-    } else {
-      pose.world[joint] = pose.world[bone.parent] * pose.local[joint];
-      pose.places[joint] = pose.places[bone.parent] + pose.world[bone.parent] * bone.offset;
-    }
+    if (joint == roles_.hips || bone.parent < roles_.hips)
+      pose.world[joint] = {pose.local[joint], Eigen::Vector3d::Zero()};
+    else
+      pose.world[joint] = placed_under(pose.world[bone.parent], pose.local[joint], bone.offset);
   }
 }
 
 double GroundedCycle::lowest(const Placed& pose, const std::vector<SolePoint>& sole) const {
   double lowest = INFINITY;
   for (const SolePoint& point : sole)
-    lowest =
-        std::min(lowest, (pose.places[point.joint] + pose.world[point.joint] * point.offset).y());
+    lowest = std::min(
+        lowest,
+        (pose.world[point.joint].place + pose.world[point.joint].rotation * point.offset).y());
   return lowest;
 }
 
@@ -227,12 +225,12 @@ void GroundedCycle::reach(Placed& pose, const Leg& leg, const Eigen::Vector3d& a
                           const Eigen::Quaterniond& foot) const {
   const auto parent_of = [&](int joint) { return body_.skeleton.joints[joint].parent; };
   const auto turn = [&](int joint, const Eigen::Quaterniond& by) {  // `by` in the world
-    const Eigen::Quaterniond& above = pose.world[parent_of(joint)];
+    const Eigen::Quaterniond& above = pose.world[parent_of(joint)].rotation;
     pose.local[joint] = (above.conjugate() * by * above * pose.local[joint]).normalized();
     place(pose);
   };
-  const Eigen::Vector3d thigh = pose.places[leg.shank] - pose.places[leg.thigh];
-  const Eigen::Vector3d shank = pose.places[leg.foot] - pose.places[leg.shank];
+  const Eigen::Vector3d thigh = pose.world[leg.shank].place - pose.world[leg.thigh].place;
+  const Eigen::Vector3d shank = pose.world[leg.foot].place - pose.world[leg.shank].place;
   const double lengths = thigh.norm() * shank.norm();
   Eigen::Vector3d axis = thigh.cross(shank);
   double bent = std::atan2(axis.norm(), thigh.dot(shank));
@@ -243,13 +241,13 @@ void GroundedCycle::reach(Placed& pose, const Leg& leg, const Eigen::Vector3d& a
     axis.normalize();
     if (axis.x() < -0.5) axis = -axis, bent = -bent;
   }
-  const double wanted = (ankle - pose.places[leg.thigh]).squaredNorm();
+  const double wanted = (ankle - pose.world[leg.thigh].place).squaredNorm();
   const double cosine = (wanted - thigh.squaredNorm() - shank.squaredNorm()) / (2 * lengths);
   const double bend = std::acos(std::clamp(cosine, -1.0, 1.0));
   turn(leg.shank, Eigen::Quaterniond(Eigen::AngleAxisd(bend - bent, axis)));
-  turn(leg.thigh, turn_between(pose.places[leg.foot] - pose.places[leg.thigh],
-                               ankle - pose.places[leg.thigh]));
-  pose.local[leg.foot] = pose.world[parent_of(leg.foot)].conjugate() * foot;
+  turn(leg.thigh, turn_between(pose.world[leg.foot].place - pose.world[leg.thigh].place,
+                               ankle - pose.world[leg.thigh].place));
+  pose.local[leg.foot] = pose.world[parent_of(leg.foot)].rotation.conjugate() * foot;
   place(pose);
 }
 

@@ -15,6 +15,7 @@
 #include <vector>
 
 #include "gait/model/model.h"
+#include "gait/motion/kinematics.h"
 
 namespace gait {
 
@@ -35,8 +36,8 @@ class GroundedCycle {
     Eigen::Vector3d offset = Eigen::Vector3d::Zero();
   };
   struct Placed {  // a pose in the world, hips at the origin
-    std::vector<Eigen::Quaterniond> local, world;
-    std::vector<Eigen::Vector3d> places;
+    std::vector<Eigen::Quaterniond> local;
+    std::vector<Placement<double>> world;
   };
 
   struct Ground {                      // per frame, against the hips

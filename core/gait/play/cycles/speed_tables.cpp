@@ -159,11 +159,8 @@ std::shared_ptr<const SpeedTables> make_speed_tables(const Model& model, double 
   if (!roles.has_legs())
     throw Error("model " + model.name + ": expected a body with two legs for the speed walker");
   auto tables = std::make_shared<SpeedTables>();
-  const auto& bones = body.skeleton.joints;
-  tables->leg_length = static_cast<float>(bones[roles.left.shank].offset.norm() +
-                                          bones[roles.left.foot].offset.norm());
-  for (const Eigen::Quaterniond& reference : body.references)
-    tables->references.push_back(reference.cast<float>());
+  tables->leg_length = static_cast<float>(leg_length(body.skeleton, roles));
+  tables->references = float_references(body);
   const CycleSpace& first =
       model.shared_speed_space ? *model.shared_speed_space : model.speed_spaces.front().space;
   tables->frames = first.frames;

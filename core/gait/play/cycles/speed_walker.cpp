@@ -232,10 +232,6 @@ float SpeedWalker::frequency_by(SpeedLaw law) const noexcept {
   return sum;
 }
 
-float SpeedWalker::speed_of_feet() const noexcept {
-  return frequency_ > 0 ? frequency_ / frequency_by(SpeedLaw::feet) * speed() : 0.f;
-}
-
 void SpeedWalker::read_pose() noexcept {
   reader_.clear();
   reader_.set_phase(phase_);

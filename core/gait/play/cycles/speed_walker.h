@@ -71,7 +71,6 @@ class SpeedWalker {
   float speed() const noexcept { return speed_per_leg_ * leg_length_; }  // reached by now, m/s
   // The foot that met the ground during the last advance.
   std::optional<Foot> contact() const noexcept { return contact_; }
-  float speed_of_feet() const noexcept;  // that they travel at over a cycle, m/s
   float leg_length() const noexcept { return leg_length_; }  // reached by now, metres
   // How much larger this walker is than the model's body: what root and offsets are scaled by.
   float scale() const noexcept { return leg_length_ / tables_->leg_length; }

@@ -149,12 +149,6 @@ bool StyleWalker::free(int component) noexcept {
   return set(pinned_[static_cast<std::size_t>(component)], 0, 0, 1);
 }
 
-bool StyleWalker::set_cadence_scale(float scale) noexcept {
-  if (!std::isfinite(scale)) return false;
-  cadence_scale_ = std::clamp(scale, 0.0f, 4.0f);
-  return true;
-}
-
 bool StyleWalker::set_cadence(float steps_per_second) noexcept {
   if (!std::isfinite(steps_per_second)) return false;
   cadence_ = std::clamp(steps_per_second, 0.0f, 8.0f);
@@ -224,8 +218,7 @@ float StyleWalker::duration() const noexcept {
 }
 
 double StyleWalker::frequency() const noexcept {
-  const double own = cadence_ > 0 ? 0.5 * cadence_ : 1.0 / duration();
-  return own * cadence_scale_;
+  return cadence_ > 0 ? 0.5 * cadence_ : 1.0 / duration();
 }
 
 float StyleWalker::cadence() const noexcept { return static_cast<float>(2 * frequency()); }
@@ -247,13 +240,11 @@ bool StyleWalker::advance(double seconds) noexcept {
   const double rate = frequency();
   const double passed = std::min(seconds * rate, 0.5), before = phase_;
   phase_ += passed;
-  if (before < 0.5 && phase_ >= 0.5 && rate > 0) {
+  if (before < 0.5 && phase_ >= 0.5) {
     contact_ = Foot::left;
     since_contact_ = (phase_ - 0.5) / rate;
   }
-  // A walk that stands still in mid-step changes its style all the same.
-  const auto way = static_cast<float>(
-      cadence_scale_ > 0 ? passed : std::min(seconds / static_cast<double>(duration()), 0.5));
+  const auto way = static_cast<float>(passed);
   const float share = glide_share(way, step);
   mix_.advance(way);
   variation_.advance(share), exaggeration_.advance(share);

@@ -55,7 +55,6 @@ class StyleWalker {
   // Holds score `component` at `value` deviations of that component over all cycles, -6 to 6.
   bool pin(int component, float value) noexcept;
   bool free(int component) noexcept;
-  bool set_cadence_scale(float scale) noexcept;  // 0 (stands still in mid-step) to 4
   bool set_cadence(
       float steps_per_second) noexcept;  // instead of the style's; 0: the style's, to 8
 
@@ -111,7 +110,7 @@ class StyleWalker {
   Glide variation_{1}, exaggeration_{1};
   std::vector<Glide> pinned_, pin_values_;  // how much, and at which score
   Eigen::VectorXf component_deviations_;
-  float cadence_scale_ = 1, cadence_ = 0;
+  float cadence_ = 0;
 
   int drawn_ = 0;        // numbers of the next cycle that are drawn already
   Eigen::VectorXf row_;  // of the mixed factor

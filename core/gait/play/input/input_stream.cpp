@@ -10,13 +10,6 @@ namespace gait {
 
 namespace {
 
-int values_of_kind(const Model& model, StreamKind kind) {
-  int values = 0;
-  for (const Stream& stream : model.inputs)
-    if (stream.kind == kind) values += stream.size;
-  return values;
-}
-
 bool all_finite(std::span<const float> values) noexcept {
   return std::ranges::all_of(values, [](float value) { return std::isfinite(value); });
 }
@@ -25,32 +18,25 @@ bool all_finite(std::span<const float> values) noexcept {
 
 InputStream::InputStream(std::shared_ptr<const Model> model, double longest_gap)
     : model_(std::move(model)),
-      clock_(model_->frame_rate, values_of_kind(*model_, StreamKind::rotation) / 3,
-             values_of_kind(*model_, StreamKind::plain), longest_gap),
+      layout_(StreamLayout::of_inputs(*model_)),
+      clock_(model_->frame_rate, layout_.values(StreamKind::rotation) / 3,
+             layout_.values(StreamKind::plain), longest_gap),
       missing_(model_->inputs.size(), false),
       collected_(model_->input.values, 0.0f),
       usable_(collected_),
       resampled_(collected_),
-      rotations_(values_of_kind(*model_, StreamKind::rotation) / 3, Eigen::Quaternionf::Identity()),
-      plain_(values_of_kind(*model_, StreamKind::plain), 0.0f) {
-  int begin = 0;
-  for (const Stream& stream : model_->inputs) {
-    begin_.push_back(begin);
-    begin += stream.size;
-  }
+      rotations_(layout_.values(StreamKind::rotation) / 3, Eigen::Quaternionf::Identity()),
+      plain_(layout_.values(StreamKind::plain), 0.0f) {
   if (model_->body) {
+    references_ = float_references(*model_->body);
     heading_.emplace(*model_->body, model_->frame_rate);
-    hips_ = HipsHeading::input_of(*model_->body);
+    hips_ = layout_.stream_of(body_roles(*model_->body).hips);
   }
 }
 
 void InputStream::reset() noexcept {
   clock_.reset();
   if (heading_) heading_->reset();
-}
-
-bool InputStream::is_rotation(int stream) const noexcept {
-  return model_->inputs[stream].kind == StreamKind::rotation;
 }
 
 FrameClock::Arrival InputStream::push(double time, std::span<const float> values) noexcept {
@@ -64,32 +50,28 @@ FrameClock::Arrival InputStream::push_body(double time, std::span<const float> p
   if (!model_->body || pose.size() != 3 * model_->body->references.size())
     return FrameClock::Arrival::rejected;
   hips_world_ = false;
-  const std::vector<int>& joints = model_->body->input_joints;
-  for (std::size_t i = 0; i < joints.size(); ++i)
-    std::copy_n(pose.begin() + 3 * joints[i], 3, collected_.begin() + static_cast<int>(3 * i));
+  for (const StreamPlace& place : layout_)
+    if (place.turns())
+      std::copy_n(pose.begin() + 3 * place.joint, 3, collected_.begin() + place.begin);
   return take(time);
 }
 
 FrameClock::Arrival InputStream::push_collected(double time) noexcept { return take(time); }
 
 bool InputStream::set_values(int stream, std::span<const float> values) noexcept {
-  if (stream < 0 || stream >= streams() ||
-      values.size() != static_cast<std::size_t>(model_->inputs[stream].size) || !all_finite(values))
-    return false;
+  if (!layout_.fits(stream, values)) return false;
   if (stream == hips_) hips_world_ = false;
-  std::copy(values.begin(), values.end(), collected_.begin() + begin_[stream]);
+  std::copy(values.begin(), values.end(), collected_.begin() + first_value(stream));
   return true;
 }
 
 bool InputStream::set_rotation(int stream, const Eigen::Quaternionf& rotation) noexcept {
-  if (stream < 0 || stream >= streams() || !is_rotation(stream) || !model_->body) return false;
+  if (!layout_.has(stream) || layout_[stream].joint < 0) return false;
   const float length = rotation.norm();
   if (!std::isfinite(length) || length < 1e-6f) return false;
-  const int joint = model_->body->input_joints[stream];
-  const Eigen::Quaternionf reference = model_->body->references[joint].cast<float>();
-  const Eigen::Vector3f value =
-      rotation_vector<float>(reference.conjugate() * rotation.normalized());
-  std::copy_n(value.data(), 3, collected_.begin() + begin_[stream]);
+  const StreamPlace& place = layout_[stream];
+  values_from<float>(rotation.normalized(), references_[place.joint],
+                     collected_.data() + place.begin);
   if (stream == hips_) hips_world_ = true;
   return true;
 }
@@ -103,14 +85,13 @@ bool InputStream::set_euler(int stream, std::string_view order,
 FrameClock::Arrival InputStream::take(double time) noexcept {
   // Before anything is held: a stream that goes missing later would keep what is not a number.
   for (int stream = 0; stream < streams(); ++stream)
-    if (!missing_[stream] &&
-        !all_finite(std::span(collected_).subspan(begin_[stream], model_->inputs[stream].size)))
+    if (!missing_[stream] && !layout_.fits(stream, layout_.of(stream, collected_)))
       return FrameClock::Arrival::rejected;
   std::size_t rotation = 0, plain = 0;
   for (int stream = 0; stream < streams(); ++stream) {
-    const int begin = begin_[stream], size = model_->inputs[stream].size;
+    const auto [begin, size, kind, joint] = layout_[stream];
     if (!missing_[stream]) std::copy_n(collected_.begin() + begin, size, usable_.begin() + begin);
-    if (is_rotation(stream))
+    if (kind == StreamKind::rotation)
       rotations_[rotation++] = exponential_map<float>(
           Eigen::Vector3f(usable_[begin], usable_[begin + 1], usable_[begin + 2]));
     else
@@ -126,15 +107,14 @@ bool InputStream::next() noexcept {
   if (clock_.first_of_run() && heading_) heading_->reset();
   std::size_t rotation = 0, plain = 0;
   for (int stream = 0; stream < streams(); ++stream) {
-    const int begin = begin_[stream], size = model_->inputs[stream].size;
-    if (!is_rotation(stream)) {
+    const auto [begin, size, kind, joint] = layout_[stream];
+    if (kind == StreamKind::plain) {
       for (int i = 0; i < size; ++i) resampled_[begin + i] = plain_[plain++];
       continue;
     }
     Eigen::Quaternionf relative = rotations_[rotation++];
     if (stream == hips_ && hips_world_) {
-      const Eigen::Quaternionf reference =
-          model_->body->references[model_->body->input_joints[hips_]].cast<float>();
+      const Eigen::Quaternionf& reference = references_[joint];
       const Eigen::Quaternionf hips = reference * relative;
       relative = reference.conjugate() * about_vertical(-heading_->advance(hips)) * hips;
     }

@@ -15,7 +15,7 @@
 #include <string_view>
 #include <vector>
 
-#include "gait/model/model.h"
+#include "gait/model/stream_layout.h"
 #include "gait/play/input/frame_clock.h"
 #include "gait/play/input/hips_heading.h"
 
@@ -58,16 +58,16 @@ class InputStream {
   // How long that frame waited for the one that was pushed last, by the sender's clock.
   double waited() const noexcept { return pushed_ - clock_.time(); }
 
-  int streams() const noexcept { return static_cast<int>(model_->inputs.size()); }
-  int first_value(int stream) const noexcept { return begin_[stream]; }
+  int streams() const noexcept { return layout_.streams(); }
+  int first_value(int stream) const noexcept { return layout_[stream].begin; }
   void reset() noexcept;
 
  private:
   FrameClock::Arrival take(double time) noexcept;
-  bool is_rotation(int stream) const noexcept;
 
   std::shared_ptr<const Model> model_;
-  std::vector<int> begin_;  // first value per stream
+  StreamLayout layout_;
+  std::vector<Eigen::Quaternionf> references_;  // per joint of the body
   FrameClock clock_;
   std::optional<HipsHeading> heading_;
   int hips_ = -1;            // stream of the hips, -1: not measured

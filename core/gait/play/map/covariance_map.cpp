@@ -27,8 +27,8 @@ CovarianceMap::CovarianceMap(const Model& model, std::shared_ptr<const StateTabl
 const OutputGaussian& CovarianceMap::map(std::span<const WeightedState> states,
                                          const Eigen::Ref<const Eigen::VectorXf>& x,
                                          int known) noexcept {
-  const int stage = tables_->stage_of(known, layout_);
-  const int count = tables_->stages[stage];
+  const int depth = tables_->depth_of(known, layout_);
+  const int count = tables_->depths[depth];
   whitening_.take(*tables_, x);
   mean_.setZero();
   squares_.setZero();
@@ -54,7 +54,7 @@ const OutputGaussian& CovarianceMap::map(std::span<const WeightedState> states,
           weighted.weight *
           (at(state.output_variance) -
            s * (2 - s) *
-               state.explained_variance.col(stage).segment(part * statics, statics).array());
+               state.explained_variance.col(depth).segment(part * statics, statics).array());
     }
   }
   // Variance within the states plus that of their means about the mixture's.

@@ -12,16 +12,11 @@
 #include <memory>
 #include <span>
 
+#include "gait/play/output_gaussian.h"
 #include "gait/play/recognise/decoder.h"
 #include "gait/play/recognise/emissions.h"
 
 namespace gait {
-
-// What the trajectory is asked to follow at one frame, in the outputs' own units. Statics, then
-// first, then second differences, each per modelled output value.
-struct OutputGaussian {
-  Eigen::VectorXf mean, variance;
-};
 
 class CovarianceMap {
  public:

@@ -21,19 +21,14 @@ ObservationMap::ObservationMap(const PlayModel& played)
       scaling_mean_(model_->input_scaling.mean.cast<float>()),
       inverse_deviation_(model_->input_scaling.deviation.cwiseInverse().cast<float>()),
       scaled_(Eigen::VectorXf::Zero(model_->input.size())),
+      streams_(StreamLayout::of_outputs(*model_)),
+      strengths_(model_->outputs.size(), static_cast<float>(model_->play.strength)),
       bias_(model_->output.values, 0.0f),
       unmodelled_(model_->output.values),
-      states_(Decoder::most_weighted),
       wanted_(model_->input.values, false),
       masked_(wanted_),
       mean_(3 * model_->output.values, 0.0f),
       variance_(mean_) {
-  const auto strength = static_cast<float>(model_->play.strength);
-  int begin = 0;
-  for (const Stream& stream : model_->outputs) {
-    streams_.push_back({begin, stream.size, strength});
-    begin += stream.size;
-  }
   Eigen::Map<Eigen::VectorXf>(unmodelled_.data(), model_->output.values) =
       model_->output_mean.cast<float>();
 }
@@ -78,26 +73,23 @@ void ObservationMap::map(std::span<const WeightedState> states, std::span<const 
 bool ObservationMap::set_strength(float strength) noexcept {
   if (!is_strength(strength)) return false;
   map_.set_strength(strength);
-  for (OutputStream& stream : streams_) stream.strength = strength;
+  std::ranges::fill(strengths_, strength);
   return true;
 }
 
 bool ObservationMap::set_strength(int stream, float strength) noexcept {
-  if (stream < 0 || stream >= streams() || !is_strength(strength)) return false;
-  OutputStream& set = streams_[stream];
-  set.strength = strength;
+  if (!streams_.has(stream) || !is_strength(strength)) return false;
+  strengths_[stream] = strength;
+  const StreamPlace& place = streams_[stream];
   const std::vector<int>& modelled = model_->output.modelled;
   for (std::size_t i = 0; i < modelled.size(); ++i)
-    if (modelled[i] >= set.begin && modelled[i] < set.begin + set.size)
+    if (modelled[i] >= place.begin && modelled[i] < place.begin + place.size)
       map_.set_strength(static_cast<int>(i), strength);
   return true;
 }
 
 bool ObservationMap::set_bias(int stream, std::span<const float> bias) noexcept {
-  if (stream < 0 || stream >= streams() ||
-      bias.size() != static_cast<std::size_t>(streams_[stream].size) ||
-      !std::ranges::all_of(bias, [](float value) { return std::isfinite(value); }))
-    return false;
+  if (!streams_.fits(stream, bias)) return false;
   std::copy(bias.begin(), bias.end(), bias_.begin() + streams_[stream].begin);
   return true;
 }

@@ -10,7 +10,7 @@
 #include <span>
 #include <vector>
 
-#include "gait/model/model.h"
+#include "gait/model/stream_layout.h"
 #include "gait/play/map/covariance_map.h"
 #include "gait/play/play_model.h"
 #include "gait/play/recognise/table_maker.h"
@@ -45,8 +45,8 @@ class ObservationMap {
   // Factor on all variances, above 0, to 1000.
   bool set_spread(float spread) noexcept;
 
-  int streams() const noexcept { return static_cast<int>(streams_.size()); }
-  float strength(int stream) const noexcept { return streams_[stream].strength; }
+  int streams() const noexcept { return streams_.streams(); }
+  float strength(int stream) const noexcept { return strengths_[stream]; }
   std::span<const float> bias(int stream) const noexcept;
   float spread() const noexcept { return spread_; }
 
@@ -55,11 +55,6 @@ class ObservationMap {
   const Model& model() const noexcept { return *model_; }
 
  private:
-  struct OutputStream {
-    int begin = 0, size = 0;  // of its values
-    float strength = 1;
-  };
-
   void keep_tables_current(std::span<const int> missing) noexcept;
 
   std::shared_ptr<const Model> model_;
@@ -67,11 +62,11 @@ class ObservationMap {
   CovarianceMap map_;
   TableMaker maker_;
   Eigen::VectorXf scaling_mean_, inverse_deviation_, scaled_;
-  std::vector<OutputStream> streams_;
+  StreamLayout streams_;           // of outputs
+  std::vector<float> strengths_;   // per output stream
   std::vector<float> bias_;        // per output value
   std::vector<float> unmodelled_;  // what values that are not modelled are, per output value
   float spread_ = 1;
-  std::vector<WeightedState> states_;
   std::vector<bool> wanted_, masked_;
   bool awaiting_ = false;
   std::vector<float> mean_, variance_;

@@ -42,14 +42,14 @@ Emissions::Emissions(std::shared_ptr<const StateTables> tables, const InputLayou
 
 std::span<const float> Emissions::of(const Eigen::Ref<const Eigen::VectorXf>& x,
                                      int known) noexcept {
-  const int stage = tables_->stage_of(known, layout_);
-  seen_ = tables_->stages[stage];
+  const int depth = tables_->depth_of(known, layout_);
+  seen_ = tables_->depths[depth];
   whitening_.take(*tables_, x);
   for (std::size_t state = 0; state < tables_->states.size(); ++state) {
     const PlayedState& played = tables_->states[state];
     const float squared = whitening_.innovation(played, seen_).squaredNorm();
     squared_distances_[static_cast<Eigen::Index>(state)] = squared;
-    log_likelihoods_[state] = played.log_constant[stage] - 0.5f * squared;
+    log_likelihoods_[state] = played.log_constant[depth] - 0.5f * squared;
   }
   return log_likelihoods_;
 }

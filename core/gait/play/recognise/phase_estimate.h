@@ -1,8 +1,7 @@
 // Phase from a decision: how far through the cycle of labels the decided frame is, 0 to 1.
 //
-// Labels that follow each other in a ring by single successors share the cycle evenly: the steps of
-// a walk are right = [0, 0.5), left = [0.5, 1). A label outside any ring is a cycle of its own.
-// Within a label the mean durations of its states say how far it is (design.md, Progress).
+// Cycles are those of model/label_cycle.h: the steps of a walk are right = [0, 0.5), left = [0.5,
+// 1). Within a label the mean durations of its states say how far it is (design.md, Progress).
 //
 // A decision rests on the pose and on differences to poses some frames back. A difference over d
 // seconds speaks of the moment d/2 ago, so who walks faster than the model's mean is seen too early
@@ -15,6 +14,7 @@
 #include <span>
 #include <vector>
 
+#include "gait/model/label_cycle.h"
 #include "gait/model/model.h"
 #include "gait/play/recognise/decoder.h"
 
@@ -35,26 +35,15 @@ class PhaseEstimator {
   // state speaks by its progress; several by the circular mean of where they lie in the cycle.
   PhaseEstimate of(std::span<const WeightedState> states, float progress) const noexcept;
 
-  // Labels in the cycle that `label` belongs to: its i-th begins at phase i over that.
-  int labels_in_cycle(int label) const noexcept { return places_[label].of; }
-  // Labels per second at the model's mean, in that cycle.
-  float mean_cadence(int label) const noexcept {
-    return places_[label].frequency * static_cast<float>(places_[label].of);
-  }
+  const LabelCycle& cycle(int label) const noexcept { return cycles_[label]; }
 
  private:
-  struct Place {          // of a label in its ring
-    int ring = 0;         // the first label of the ring
-    int index = 0;        // labels from there
-    int of = 1;           // labels in the ring
-    float frequency = 0;  // mean cycles/s
-  };
-  PhaseEstimate estimate(const Place& place, float phase, float certainty) const noexcept;
+  PhaseEstimate estimate(const LabelCycle& cycle, float phase, float certainty) const noexcept;
 
-  std::vector<Place> places_;
-  std::vector<int> label_of_;  // per state
-  std::vector<float> middle_;  // per state: cycles
-  float age_ = 0;              // mean age of what is observed, seconds
+  std::vector<LabelCycle> cycles_;  // per label
+  std::vector<int> label_of_;       // per state
+  std::vector<float> middle_;       // per state: cycles
+  float age_ = 0;                   // mean age of what is observed, seconds
 };
 
 }  // namespace gait

@@ -25,8 +25,8 @@ Decoder decoder_for(const Model& model, const RecogniserSettings& settings,
 PhaseClockSettings Recogniser::clock_settings_of(const Model& model, const PhaseEstimator& phase) {
   PhaseClockSettings settings;
   if (model.labels.empty()) return settings;
-  settings.steps = std::clamp(phase.labels_in_cycle(0), 1, 64);
-  const double cadence = phase.mean_cadence(0), cycles = cadence / settings.steps;
+  settings.steps = std::clamp(phase.cycle(0).labels, 1, 64);
+  const double cadence = phase.cycle(0).cadence(), cycles = cadence / settings.steps;
   if (!(cycles > 0)) return settings;
   settings.cadence = cadence;
   // Gestures may be far slower or faster than steps.
@@ -44,7 +44,7 @@ Recogniser::Recogniser(const PlayModel& played, const RecogniserSettings& settin
       decoder_(decoder_for(*model_, settings, tables_)),
       phase_(*model_),
       clock_(clock_settings_of(*model_, phase_)),
-      cyclic_(phase_.labels_in_cycle(0) == static_cast<int>(model_->labels.size())),
+      cyclic_(phase_.cycle(0).labels == static_cast<int>(model_->labels.size())),
       styles_(*model_, tables_),
       maker_(model_),
       values_(model_->input.values, 0.0f),
@@ -189,7 +189,7 @@ void Recogniser::decide(int back, int state, std::span<const WeightedState> stat
 void Recogniser::follow_phase() noexcept {
   estimate_ = phase_.of(states(), decision_.progress);
   decision_.phase = estimate_.phase;
-  decision_.cadence = phase_.mean_cadence(decision_.label);
+  decision_.cadence = phase_.cycle(decision_.label).cadence();
   if (!cyclic_) return;
   clock_.advance(1 / model_->frame_rate);
   clock_.observe(estimate_.seen, estimate_.certainty, estimate_.age);

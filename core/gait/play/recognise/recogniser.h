@@ -63,7 +63,6 @@ class Recogniser {
   }
   // One posterior per style; empty for models without styles.
   std::span<const float> styles() const noexcept { return styles_.posteriors(); }
-  int best_style() const noexcept { return styles_.best(); }  // -1 without styles
   // The observation as the model scales it, and in the streams' own units; of both the first
   // `known` entries are real, the rest await their history.
   const Eigen::VectorXf& scaled() const noexcept { return held(decided_back_).scaled; }

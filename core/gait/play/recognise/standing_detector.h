@@ -25,9 +25,6 @@ class StandingDetector {
 
   bool walking() const noexcept { return walking_; }
   float activity() const noexcept { return activity_; }  // about 1 for the mean of what was taught
-  // Below the first one stands, above the second one walks.
-  float standing_below() const noexcept { return standing_below_; }
-  float walking_above() const noexcept { return walking_above_; }
 
   // A missing value does not count, nor, when it comes back, before its history is real.
   void set_missing(int value, bool missing) noexcept;
@@ -47,7 +44,8 @@ class StandingDetector {
   Eigen::MatrixXf history_;    // ring of columns, modelled values each
   std::vector<float> energies_;  // ring
   int newest_ = 0, frames_ = 0;
-  float standing_below_ = 0, walking_above_ = 0, activity_ = 1;
+  float standing_below_ = 0, walking_above_ = 0;  // of the activity
+  float activity_ = 1;
   bool walking_ = true;
 };
 

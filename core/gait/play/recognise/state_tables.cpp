@@ -12,15 +12,15 @@ namespace {
 
 // Linear discriminants of the styles from the leading `count` entries: score = w^T x + b.
 void set_styles(PlayedState& played, const Eigen::MatrixXd& means, const Eigen::MatrixXd& factor,
-                const std::vector<int>& stages) {
+                const std::vector<int>& depths) {
   const Eigen::Index styles = means.cols();
-  played.style_bias.resize(styles, static_cast<Eigen::Index>(stages.size()));
-  for (std::size_t stage = 0; stage < stages.size(); ++stage) {
-    const int count = stages[stage];
+  played.style_bias.resize(styles, static_cast<Eigen::Index>(depths.size()));
+  for (std::size_t depth = 0; depth < depths.size(); ++depth) {
+    const int count = depths[depth];
     const auto lower = factor.topLeftCorner(count, count).triangularView<Eigen::Lower>();
     Eigen::MatrixXd weights = means.topRows(count);
     lower.solveInPlace(weights);
-    played.style_bias.col(static_cast<Eigen::Index>(stage)) =
+    played.style_bias.col(static_cast<Eigen::Index>(depth)) =
         (-0.5 * weights.colwise().squaredNorm().transpose()).cast<float>();
     lower.transpose().solveInPlace(weights);
     played.style_weights.push_back(weights.transpose().cast<float>());
@@ -50,22 +50,22 @@ PlayedState played_state(const State& state, const StateTables& tables) {
   played.output_mean = state.mean.tail(tables.outputs).cast<float>();
   played.output_variance = state.covariance.diagonal().tail(tables.outputs).cast<float>();
 
-  const auto stages = static_cast<Eigen::Index>(tables.stages.size());
-  played.log_constant.resize(stages);
-  played.explained_variance.resize(tables.outputs, stages);
-  for (Eigen::Index stage = 0; stage < stages; ++stage) {
-    const int known = tables.stages[stage];
-    played.log_constant[stage] =
+  const auto depths = static_cast<Eigen::Index>(tables.depths.size());
+  played.log_constant.resize(depths);
+  played.explained_variance.resize(tables.outputs, depths);
+  for (Eigen::Index depth = 0; depth < depths; ++depth) {
+    const int known = tables.depths[depth];
+    played.log_constant[depth] =
         static_cast<float>(-lower.diagonal().head(known).array().log().sum() -
                            0.5 * known * std::log(2 * std::numbers::pi));
-    played.explained_variance.col(stage) =
+    played.explained_variance.col(depth) =
         gain.leftCols(known).rowwise().squaredNorm().cast<float>();
   }
   if (tables.styles > 0) {
     const Eigen::LLT<Eigen::MatrixXd> within(state.style_covariance(kept, kept));
     if (within.info() != Eigen::Success)
       throw Error("expected positive definite style covariances; one of the model's is not");
-    set_styles(played, state.style_means(kept, Eigen::all), within.matrixL(), tables.stages);
+    set_styles(played, state.style_means(kept, Eigen::all), within.matrixL(), tables.depths);
   }
   played.log_stay = static_cast<float>(std::log(state.stay));
   played.log_leave = static_cast<float>(std::log1p(-state.stay));
@@ -75,9 +75,9 @@ PlayedState played_state(const State& state, const StateTables& tables) {
 
 }  // namespace
 
-int StateTables::stage_of(int known, const InputLayout& layout) const {
+int StateTables::depth_of(int known, const InputLayout& layout) const {
   const int lags = layout.statics() == 0 ? 0 : known / layout.statics() - 1;
-  return std::min(std::max(lags, 0), static_cast<int>(stages.size()) - 1);
+  return std::min(std::max(lags, 0), static_cast<int>(depths.size()) - 1);
 }
 
 std::shared_ptr<const StateTables> make_state_tables(const Model& model,
@@ -90,8 +90,8 @@ std::shared_ptr<const StateTables> make_state_tables(const Model& model,
   if (tables->kept.empty())
     throw Error("expected at least one input that is there; all are missing");
   const int kept_statics = static_cast<int>(tables->kept.size()) / (model.input.size() / statics);
-  for (std::size_t stage = 0; stage <= model.input.lags.size(); ++stage)
-    tables->stages.push_back(kept_statics * static_cast<int>(stage + 1));
+  for (std::size_t depth = 0; depth <= model.input.lags.size(); ++depth)
+    tables->depths.push_back(kept_statics * static_cast<int>(depth + 1));
   tables->outputs = model.output.size();
   tables->styles = static_cast<int>(model.styles.size());
   constexpr int panel = PackedTriangle::rows;

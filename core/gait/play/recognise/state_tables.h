@@ -20,12 +20,12 @@ struct PlayedState {
   int label = 0;
   Eigen::VectorXf input_mean;                    // of the kept entries of x, padded with zeros
   PackedTriangle whitener;                       // L^-1
-  Eigen::VectorXf log_constant;                  // per stage
+  Eigen::VectorXf log_constant;                  // per depth
   Eigen::MatrixXf gain;                          // G: y by kept entries, scaled
   Eigen::VectorXf output_mean, output_variance;  // of y, scaled
-  Eigen::MatrixXf explained_variance;            // diagonal of G G^T, y by stage
-  std::vector<Eigen::MatrixXf> style_weights;    // per stage: styles by kept entries
-  Eigen::MatrixXf style_bias;                    // styles by stage
+  Eigen::MatrixXf explained_variance;            // diagonal of G G^T, y by depth
+  std::vector<Eigen::MatrixXf> style_weights;    // per depth: styles by kept entries
+  Eigen::MatrixXf style_bias;                    // styles by depth
   float log_stay = 0, log_leave = 0;
   float mean_duration = 0;  // seconds
   float before = 0;         // mean durations of the label's states before this, seconds
@@ -33,7 +33,7 @@ struct PlayedState {
 
 struct StateTables {
   std::vector<int> kept;    // entries of x that are there, ascending
-  std::vector<int> stages;  // how many kept entries are known: statics, then one lag more each
+  std::vector<int> depths;  // how many kept entries are known: statics, then one lag more each
   int outputs = 0;          // entries of y
   int styles = 0;
   int padded = 0;                   // kept entries rounded up to whole panels
@@ -43,8 +43,8 @@ struct StateTables {
   std::vector<float> label_duration;  // seconds
 
   int labels() const { return static_cast<int>(first_state.size()); }
-  // The stage at which `known` leading entries of x are real.
-  int stage_of(int known, const InputLayout& layout) const;
+  // The depth at which `known` leading entries of x are real.
+  int depth_of(int known, const InputLayout& layout) const;
 };
 
 // `missing`: one per input value, true when it is not measured; empty: all are. Throws Error when

@@ -31,14 +31,14 @@ void StyleRecogniser::reset() noexcept {
 void StyleRecogniser::advance(std::span<const WeightedState> states,
                               const Eigen::Ref<const Eigen::VectorXf>& x, int known) noexcept {
   if (posteriors_.size() == 0) return;
-  const int stage = tables_->stage_of(known, layout_);
+  const int depth = tables_->depth_of(known, layout_);
   kept_.take(*tables_, x);
-  const auto observation = kept_.observation(tables_->stages[stage]);
+  const auto observation = kept_.observation(tables_->depths[depth]);
   score_.setZero();
   for (const WeightedState& weighted : states) {
     const PlayedState& state = tables_->states[weighted.state];
-    score_.noalias() += weighted.weight * (state.style_weights[stage] * observation);
-    score_ += weighted.weight * state.style_bias.col(stage);
+    score_.noalias() += weighted.weight * (state.style_weights[depth] * observation);
+    score_ += weighted.weight * state.style_bias.col(depth);
   }
   // What all styles share says nothing about them; without it the numbers stay small.
   score_.array() -= score_.mean();

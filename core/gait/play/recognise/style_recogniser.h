@@ -16,7 +16,7 @@ namespace gait {
 
 class StyleRecogniser {
  public:
-  // Memory and temper are the model's until set.
+  // The temper is the model's, the memory too until it is set.
   StyleRecogniser(const Model& model, std::shared_ptr<const StateTables> tables);
 
   // Takes the scaled observation `x`, of which `known` leading entries are real, in the states that
@@ -28,12 +28,9 @@ class StyleRecogniser {
   std::span<const float> posteriors() const noexcept {
     return {posteriors_.data(), static_cast<std::size_t>(posteriors_.size())};
   }
-  // Averaged scores before tempering, one per style.
-  const Eigen::VectorXf& scores() const noexcept { return averaged_; }
   int best() const noexcept { return best_; }  // -1 without styles
 
   void set_memory(float seconds) noexcept;
-  void set_temper(float temper) noexcept { temper_ = temper; }
   void use(const std::shared_ptr<const StateTables>& tables) noexcept { tables_ = tables; }
   void reset() noexcept;
 

@@ -1,8 +1,8 @@
-// The queue of labels a walker goes through (MAGE's reactive control): what the player asked for,
-// then, unless told otherwise, whoever follows by themselves.
+// The queue of labels that a walker goes through (MAGE's reactive control): first the labels that
+// the performer queued, then, while that is on, the first successor of each label.
 //
-// A label that may not follow the one before it is led up to by those that lie between, so that
-// nobody takes two right steps in a row. Nothing allocates after construction.
+// Before a label that may not follow the one before it, the labels between them are walked, so that
+// no walker takes two right steps in a row. Nothing allocates after construction.
 #pragma once
 
 #include <array>
@@ -25,7 +25,6 @@ class LabelQueue {
   int size() const noexcept { return count_; }
   // Whether labels follow by themselves when none is queued: the first of the successors.
   void set_auto(bool on) noexcept { auto_ = on; }
-  bool is_auto() const noexcept { return auto_; }
 
   // What follows `current` (none: what comes first); none: nothing does, for now.
   int peek(int current) const noexcept;

@@ -5,7 +5,7 @@
 #include <Eigen/Core>
 #include <memory>
 
-#include "gait/play/map/covariance_map.h"
+#include "gait/play/output_gaussian.h"
 #include "gait/play/synthesise/step_tables.h"
 
 namespace gait {

@@ -4,7 +4,7 @@
 #include <cmath>
 
 #include "gait/model/body_pose.h"
-#include "gait/play/recognise/phase_estimate.h"
+#include "gait/model/label_cycle.h"
 
 namespace gait {
 
@@ -14,12 +14,6 @@ constexpr double lookahead_seconds = 0.2;
 // However a performer walked, the walk that goes on is one that the model knows.
 constexpr float slowest_tempo = 2, fastest_tempo = 0.5f;
 
-std::vector<Stream> all_streams(const Model& model) {
-  std::vector<Stream> streams = model.inputs;
-  streams.insert(streams.end(), model.outputs.begin(), model.outputs.end());
-  return streams;
-}
-
 Eigen::VectorXf neutral_weights(const Model& model, const StepTables& tables) {
   Eigen::VectorXf weights(tables.styles);
   for (int i = 0; i < tables.styles; ++i) weights[i] = tables.can_walk[i] ? 1.0f : 0.0f;
@@ -27,10 +21,6 @@ Eigen::VectorXf neutral_weights(const Model& model, const StepTables& tables) {
     if ((model.styles[i] == "neutral" || model.styles[i] == "normal") && tables.can_walk[i])
       return Eigen::VectorXf::Unit(tables.styles, static_cast<Eigen::Index>(i));
   return weights / weights.sum();
-}
-
-int frames_in(double seconds, double frame_rate) {
-  return std::max(0, static_cast<int>(std::lround(seconds * frame_rate)));
 }
 
 }  // namespace
@@ -42,52 +32,23 @@ StepWalker::StepWalker(const PlayModel& played, const StepWalkerSettings& settin
       queue_(tables_->successors),
       durations_(tables_->durations),
       mix_(tables_->can_walk, neutral_weights(*model_, *tables_)),
-      controls_(all_streams(*model_)),
+      layout_(StreamLayout::of_all(*model_)),
+      controls_(layout_),
       trajectory_(tables_->values,
-                  settings.past.value_or(frames_in(model_->play.past, model_->frame_rate)), 1,
-                  settings.future.value_or(frames_in(lookahead_seconds, model_->frame_rate))),
-      past_(std::max(0, settings.past.value_or(frames_in(model_->play.past, model_->frame_rate)))),
+                  settings.past.value_or(queue_frames(model_->play.past, model_->frame_rate)), 1,
+                  settings.future.value_or(queue_frames(lookahead_seconds, model_->frame_rate))),
+      past_(
+          std::max(0, settings.past.value_or(queue_frames(model_->play.past, model_->frame_rate)))),
       places_(static_cast<std::size_t>(trajectory_.delay()) + 1),
       gaussian_(tables_, period_),
       given_(Eigen::VectorXf::Zero(tables_->styles)),
       values_(tables_->mean),
       means_(tables_->mean) {
-  find_joints();
-  const PhaseEstimator phase(*model_);
-  for (int label = 0; label < tables_->labels(); ++label) {
-    const WeightedState first{tables_->first_state[label], 1};
-    phase_begin_.push_back(phase.of({&first, 1}, 0).phase);
-    phase_span_.push_back(1 / static_cast<float>(phase.labels_in_cycle(label)));
+  if (model_->body) pose_ = references_ = float_references(*model_->body);
+  for (const LabelCycle& cycle : label_cycles(*model_)) {
+    phase_begin_.push_back(cycle.begin());
+    phase_span_.push_back(1 / static_cast<float>(cycle.labels));
   }
-}
-
-void StepWalker::find_joints() {
-  if (!model_->body) return;
-  const Body& body = *model_->body;
-  for (const auto& reference : body.references) references_.push_back(reference.cast<float>());
-  pose_ = references_;
-  int begin = 0;
-  for (const auto& [streams, joints] : {std::pair(&model_->inputs, &body.input_joints),
-                                        std::pair(&model_->outputs, &body.output_joints)}) {
-    auto joint = joints->begin();
-    for (const Stream& stream : *streams) {
-      if (stream.kind == StreamKind::rotation) joints_.push_back({*joint++, begin});
-      begin += stream.size;
-    }
-  }
-}
-
-int StepWalker::stream_of(int joint) const noexcept {
-  const auto found = std::ranges::find(joints_, joint, &Joint::joint);
-  if (found == joints_.end()) return -1;
-  int begin = 0, index = 0;
-  for (const auto* streams : {&model_->inputs, &model_->outputs})
-    for (const Stream& stream : *streams) {
-      if (begin == found->begin) return index;
-      begin += stream.size;
-      ++index;
-    }
-  return -1;
 }
 
 bool StepWalker::set_weights(std::span<const float> weights) noexcept {
@@ -256,10 +217,11 @@ void StepWalker::show() noexcept {
     means_[tables_->modelled[i]] = tables_->style_means.row(at).dot(mix_.weights());
   }
   controls_.apply(means_, values_);
-  for (const Joint& joint : joints_)
-    pose_[static_cast<std::size_t>(joint.joint)] =
-        rotation_from<float>(std::span<const float, 3>(values_.data() + joint.begin, 3),
-                             references_[static_cast<std::size_t>(joint.joint)]);
+  const std::span<const float> values(values_.data(), static_cast<std::size_t>(values_.size()));
+  for (const StreamPlace& place : layout_)
+    if (place.joint >= 0)
+      pose_[place.joint] =
+          rotation_from<float>(values.subspan(place.begin).first<3>(), references_[place.joint]);
 }
 
 std::span<const float> StepWalker::inputs() const noexcept {

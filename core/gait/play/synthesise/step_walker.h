@@ -56,7 +56,6 @@ class StepWalker {
   // The label comes after those queued already, led up to by those that must lie between. See
   // LabelQueue::push.
   bool queue(int label) noexcept { return queue_.push(label, ahead_.label); }
-  void clear_queue() noexcept { queue_.clear(); }
   int queued() const noexcept { return queue_.size(); }
   // Whether labels follow by themselves (on at first); else the walk stands at a label's end.
   void set_auto(bool on) noexcept { queue_.set_auto(on); }
@@ -70,7 +69,7 @@ class StepWalker {
   LabelDurations& durations() noexcept { return durations_; }
   StreamControls& streams() noexcept { return controls_; }
   // The stream of a joint of the body, -1 when it has none.
-  int stream_of(int joint) const noexcept;
+  int stream_of(int joint) const noexcept { return layout_.stream_of(joint); }
 
   // Makes the next frame, 1 / model.frame_rate later.
   void advance() noexcept;
@@ -105,7 +104,6 @@ class StepWalker {
   // The label that began with this frame: of a walk, which foot touched.
   std::optional<int> entered() const noexcept { return entered_; }
   const Eigen::VectorXf& weights() const noexcept { return mix_.weights(); }
-  int lookahead() const noexcept { return trajectory_.delay(); }  // frames
 
  private:
   struct Place {
@@ -113,11 +111,7 @@ class StepWalker {
     float progress = 0;
     bool standing = false;
   };
-  struct Joint {
-    int joint = 0, begin = 0;  // of its three values
-  };
 
-  void find_joints();
   void begin() noexcept;
   void fill() noexcept;
   Place back(Place place, float seconds) const noexcept;
@@ -133,6 +127,7 @@ class StepWalker {
   LabelQueue queue_;
   LabelDurations durations_;
   StyleMix mix_;
+  StreamLayout layout_;  // of inputs and outputs
   StreamControls controls_;
   Trajectory trajectory_;
   int past_;
@@ -147,7 +142,6 @@ class StepWalker {
   StepGaussian gaussian_;
   Eigen::VectorXf given_;  // scratch: per style
   Eigen::VectorXf values_, means_;
-  std::vector<Joint> joints_;
   std::vector<Eigen::Quaternionf> references_, pose_;
   std::vector<float> phase_begin_, phase_span_;  // per label
 };

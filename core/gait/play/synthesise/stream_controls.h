@@ -1,4 +1,4 @@
-// A player's hands on single streams while they play: scaled about their mean, shifted, or fixed.
+// Controls of single streams while they play: each can be scaled about its mean, shifted, or fixed.
 //
 // A stream is a joint's rotation vector (radians) or plain values in their own unit. Changes arrive
 // within about a step. Nothing allocates after construction.
@@ -8,14 +8,14 @@
 #include <span>
 #include <vector>
 
-#include "gait/model/model.h"
+#include "gait/model/stream_layout.h"
 #include "gait/play/change/glide.h"
 
 namespace gait {
 
 class StreamControls {
  public:
-  explicit StreamControls(const std::vector<Stream>& streams);
+  explicit StreamControls(const StreamLayout& layout);
 
   // False, with nothing changed, when there is no such stream, the size is another or a number is
   // not finite.
@@ -29,19 +29,16 @@ class StreamControls {
   // Changes `values` (of all streams), whose means are `means`.
   void apply(const Eigen::VectorXf& means, Eigen::Ref<Eigen::VectorXf> values) const noexcept;
 
-  int values() const noexcept { return values_; }
   void take_over(const StreamControls& other) noexcept;  // settings; the same streams
 
  private:
   struct Control {
-    int begin = 0, size = 0;  // of its values
     Glide scale{1}, fixed{0};
   };
-  bool fits(int stream, std::span<const float> values) const noexcept;
 
-  std::vector<Control> controls_;
+  StreamLayout layout_;
+  std::vector<Control> controls_;       // per stream
   std::vector<Glide> shifts_, places_;  // per value
-  int values_ = 0;
 };
 
 }  // namespace gait

@@ -4,7 +4,7 @@
 #include <cmath>
 #include <utility>
 
-#include "gait/play/recognise/phase_estimate.h"
+#include "gait/model/label_cycle.h"
 #include "gait/play/synthesise/falling_in_step.h"
 
 namespace gait {
@@ -14,29 +14,13 @@ namespace {
 // Deviations per value. Frames that follow each other stay under 1.1 in the built-in walks.
 constexpr float farthest_following = 1.2f;
 
-int frames_in(double seconds, double frame_rate) {
-  return std::max(0, static_cast<int>(std::lround(seconds * frame_rate)));
-}
-
-std::vector<Stream> all_streams(const Model& model) {
-  std::vector<Stream> streams = model.inputs;
-  streams.insert(streams.end(), model.outputs.begin(), model.outputs.end());
-  return streams;
-}
-
 std::vector<int> pose_positions(const Model& model) {
   std::vector<int> positions;
-  for (const bool output : {false, true}) {
-    auto joint = !model.body ? std::vector<int>::const_iterator()
-                 : output    ? model.body->output_joints.begin()
-                             : model.body->input_joints.begin();
-    for (const Stream& stream : output ? model.outputs : model.inputs) {
-      const int first = !model.body                           ? static_cast<int>(positions.size())
-                        : stream.kind == StreamKind::rotation ? 3 * *joint++
-                                                              : -1;
-      for (int i = 0; i < stream.size; ++i) positions.push_back(first < 0 ? -1 : first + i);
-    }
-  }
+  for (const StreamPlace& place : StreamLayout::of_all(model))
+    for (int i = 0; i < place.size; ++i)
+      positions.push_back(!model.body        ? place.begin + i
+                          : place.joint >= 0 ? 3 * place.joint + i
+                                             : -1);
   return positions;
 }
 
@@ -50,12 +34,12 @@ Synthesiser::Synthesiser(const PlayModel& played, const SynthesiserSettings& set
     : model_(played.model),
       walker_(played),
       trajectory_(model_->output.statics(), 0, 1, 0),
-      controls_(all_streams(*model_)),
-      hand_over_(all_streams(*model_), model_->frame_rate, hand_over_seconds),
+      controls_(StreamLayout::of_all(*model_)),
+      hand_over_(StreamLayout::of_all(*model_), model_->frame_rate),
       period_(static_cast<float>(1 / model_->frame_rate)),
       inputs_(model_->input.values),
       settling_(std::max(2, model_->input.lags.empty() ? 0 : model_->input.lags.back())),
-      patience_(settling_ + frames_in(step_patience_seconds, model_->frame_rate)),
+      patience_(settling_ + queue_frames(step_patience_seconds, model_->frame_rate)),
       positions_(pose_positions(*model_)),
       weights_(model_->styles.size(), 0.0f),
       means_(Eigen::VectorXf::Zero(inputs_ + model_->output.values)),
@@ -63,11 +47,11 @@ Synthesiser::Synthesiser(const PlayModel& played, const SynthesiserSettings& set
       pose_(model_->body ? static_cast<std::size_t>(3 * model_->body->skeleton.size())
                          : positions_.size(),
             0.0f) {
-  resize(settings.past.value_or(frames_in(model_->play.past, model_->frame_rate)),
-         settings.future.value_or(frames_in(model_->play.future, model_->frame_rate)));
-  const PhaseEstimator phase(*model_);
-  labels_in_cycle_ = static_cast<float>(phase.labels_in_cycle(0));
-  cadence_ = static_cast<float>(phase.mean_cadence(0));
+  resize(settings.past.value_or(queue_frames(model_->play.past, model_->frame_rate)),
+         settings.future.value_or(queue_frames(model_->play.future, model_->frame_rate)));
+  const LabelCycle cycle = label_cycles(*model_).front();
+  labels_in_cycle_ = static_cast<float>(cycle.labels);
+  cadence_ = cycle.cadence();
   gaussian_ = {Eigen::VectorXf::Zero(model_->output.size()),
                Eigen::VectorXf::Ones(model_->output.size())};
   std::ranges::copy(walker_.inputs(), means_.data());

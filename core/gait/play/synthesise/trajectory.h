@@ -8,10 +8,17 @@
 #pragma once
 
 #include <Eigen/Core>
+#include <algorithm>
+#include <cmath>
 
-#include "gait/play/map/covariance_map.h"
+#include "gait/play/output_gaussian.h"
 
 namespace gait {
+
+// Frames of a queue that is so many seconds long.
+inline int queue_frames(double seconds, double frame_rate) {
+  return std::max(0, static_cast<int>(std::lround(seconds * frame_rate)));
+}
 
 class Trajectory {
  public:
