@@ -16,7 +16,6 @@
 #include "gait/model/model_file.h"
 #include "gait/motion/rest_calibration.h"
 #include "gait/teach/walk_model.h"
-#include "gait/teach/walks_over_speed.h"
 #include "interrupt.h"
 #include "option_kinds.h"
 #include "output_file.h"
@@ -80,27 +79,21 @@ std::string date_of_training() {
   return text;
 }
 
-struct Trained {
-  WalksRead read;
-  WalkSequences walks;
-  Selected selected;
-};
-
-Trained learn_from(const TrainOptions& options, const Interrupt& interrupt) {
-  Progress progress("gait train:");
-  Trained trained;
-  trained.read = read_walks(options.reading, "train", [&](double share, const std::string& file) {
+WalksRead read_clips(const TrainOptions& options, const Interrupt& interrupt, Progress& progress) {
+  WalksRead read = read_walks(options.reading, "train", [&](double share, const std::string& file) {
     interrupt.check();
     progress.show(0.2 * share, "reading " + file);
   });
   interrupt.check();
-  progress.show(0.2, "finding steps");
   if (options.reading.calibrate)
-    for (Walk& walk : trained.read.walks)
-      walk.clip = calibrated(walk.clip, trained.read.walks.front().clip.skeleton);
-  trained.walks = walk_sequences(trained.read.walks, walk_options_of(options, trained.read.roles));
-  interrupt.check();
+    for (Walk& walk : read.walks)
+      walk.clip = calibrated(walk.clip, read.walks.front().clip.skeleton);
+  return read;
+}
 
+LearntWalks learn_from(const WalksRead& read, const TrainOptions& options,
+                       const Interrupt& interrupt, Progress& progress) {
+  progress.show(0.2, "finding steps");
   SelectionOptions selection = selection_of(options);
   selection.learning.hmm.cancel = interrupt.cancel();
   selection.learning.hmm.progress = [&](double share, const std::string& what) {
@@ -111,28 +104,29 @@ Trained learn_from(const TrainOptions& options, const Interrupt& interrupt) {
   origin.date = date_of_training();
   origin.comment = options.comment;
   origin.synthetic = options.synthetic;
-  trained.selected = select_walk_model(trained.walks, selection, origin);
-  add_style_space(trained.selected.model, trained.read.walks, {}, trained.read.roles);
-  interrupt.check();
-  SpeedOptions speeds;
-  speeds.roles = trained.read.roles;
-  add_speed_spaces(trained.selected.model, trained.read.walks, speeds);
-  interrupt.check();
-  // Where the clips lay says something of this machine and nothing of the model.
-  for (std::string& clip : trained.selected.model.training.clips)
+  LearntWalks learnt =
+      learn_walks(read.walks, read.walks, walk_options_of(options, read.roles), selection, origin);
+  // A model keeps the names of its clips, not the folders that they lay in on this machine.
+  for (std::string& clip : learnt.selected.model.training.clips)
     clip = std::filesystem::path(clip).filename().string();
-  return trained;
+  return learnt;
 }
 
 void train(const TrainOptions& options) {
   const auto start = std::chrono::steady_clock::now();
   OutputFile output(options.output);
   const Interrupt interrupt;
-  const Trained trained = learn_from(options, interrupt);
-  write_model(trained.selected.model, output.part());
+  WalksRead read;
+  LearntWalks learnt;
+  {
+    Progress progress("gait train:");
+    read = read_clips(options, interrupt, progress);
+    learnt = learn_from(read, options, interrupt, progress);
+  }
+  write_model(learnt.selected.model, output.part());
   output.keep();
 
-  TrainReport report{trained.read, trained.walks, trained.selected, options.output, 0, 0};
+  TrainReport report{read, learnt.sequences, learnt.selected, options.output, 0, 0};
   report.seconds = std::chrono::duration<double>(std::chrono::steady_clock::now() - start).count();
   report.threads = threads_to_use(options.threads.value_or(0));
   if (options.json)

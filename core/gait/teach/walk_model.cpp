@@ -2,8 +2,10 @@
 
 #include <algorithm>
 
+#include "gait/error.h"
 #include "gait/learn/cycles.h"
 #include "gait/learn/style_space.h"
+#include "gait/teach/walks_over_speed.h"
 
 namespace gait {
 
@@ -49,6 +51,26 @@ void add_style_space(Model& model, const std::vector<Walk>& walks, const StyleSp
   model.style_space =
       learn_style_space(cycles, style_of_walk, static_cast<int>(model.styles.size()),
                         joints_below_hips(*model.body), options.frames, options.components);
+}
+
+LearntWalks learn_walks(const std::vector<Walk>& walks, const std::vector<Walk>& over_speed,
+                        const WalkOptions& options, const SelectionOptions& selection,
+                        const ModelOrigin& origin) {
+  const auto check_cancel = [&] {
+    if (selection.learning.hmm.cancel.requested()) throw Error("cancelled");
+  };
+  LearntWalks learnt;
+  learnt.sequences = walk_sequences(walks, options);
+  check_cancel();
+  learnt.selected = select_walk_model(learnt.sequences, selection, origin);
+  Model& model = learnt.selected.model;
+  add_style_space(model, walks, {}, options.roles);
+  check_cancel();
+  SpeedOptions speeds;
+  speeds.roles = options.roles;
+  add_speed_spaces(model, over_speed, speeds);
+  check_cancel();
+  return learnt;
 }
 
 }  // namespace gait

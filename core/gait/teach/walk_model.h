@@ -1,5 +1,5 @@
-// A model of walking from captured walks: the labels right and left that follow each other, learnt
-// from the walks' sequences, with everything that was not said chosen by cross-validation.
+// A model of walking from captured walks: the labels right and left, which follow each other, and
+// the spaces in which the style walker and the speed walker walk.
 #pragma once
 
 #include <string>
@@ -14,14 +14,14 @@ namespace gait {
 struct ModelOrigin {
   std::string name = "walk";
   std::string date;        // free text, best as 2026-01-31T12:00:00Z
-  std::string comment;     // a sentence for whoever opens it
-  bool synthetic = false;  // nobody walked the walks
+  std::string comment;     // a sentence for users of the model
+  bool synthetic = false;  // the walks were computed, not captured
 };
 
 // Steps of walking, the default instance of labels: 0 right, 1 left, each followed by the other.
 LearningTask walking_task(const WalkSequences& walks);
 
-// Learns the model with its body. Throws Error as select_model does.
+// Learns the model with its body, without spaces. Throws Error as select_model does.
 Selected select_walk_model(const WalkSequences& walks, const SelectionOptions& options,
                            const ModelOrigin& origin = {});
 
@@ -37,5 +37,18 @@ struct StyleSpaceOptions {
 // walks. Without styles, or with fewer than two straight cycles of any, the model stays without.
 void add_style_space(Model& model, const std::vector<Walk>& walks,
                      const StyleSpaceOptions& options = {}, const RoleTable& roles = {});
+
+struct LearntWalks {
+  WalkSequences sequences;
+  Selected selected;
+};
+
+// Learns a whole model: steps from `walks`, choosing by cross-validation what `selection` leaves
+// open; the space of styles from the same walks; speed spaces from those of `over_speed` that
+// walks_over_speed keeps (it may be `walks` again, or empty). Throws Error as walk_sequences and
+// select_model do, and Error("cancelled").
+LearntWalks learn_walks(const std::vector<Walk>& walks, const std::vector<Walk>& over_speed,
+                        const WalkOptions& options, const SelectionOptions& selection,
+                        const ModelOrigin& origin);
 
 }  // namespace gait

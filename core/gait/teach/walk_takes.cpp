@@ -70,8 +70,7 @@ TakesLearnt learn_walk_takes(const std::vector<RecordedTake>& takes, const Body&
   ModelOrigin origin;
   origin.name = name;
   TakesLearnt learnt;
-  learnt.model = select_walk_model(walk_sequences(walks, walk_options), selection, origin).model;
-  add_style_space(learnt.model, walks);
+  learnt.model = learn_walks(walks, {}, walk_options, selection, origin).selected.model;
   learnt.judged.takes = static_cast<int>(walks.size());
   learnt.judged.accuracy = learnt.model.training.validated_step_accuracy;
   learnt.judged.error = learnt.model.training.validated_error;
