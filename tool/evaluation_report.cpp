@@ -38,24 +38,28 @@ double delay_ms(const Evaluation& evaluation, const Model& model) {
   return 1000 * evaluation.delay_frames / model.frame_rate;
 }
 
-void print_row(const std::string& what, const char* format, double clips, double pooled,
+void print_row(const std::string& what, const char* format, const Means& means,
                const std::string& meaning) {
   const auto number = [&](double value) {
     return std::isnan(value) ? std::string("-") : in_words(format, value);
   };
-  std::printf("  %-22s %9s %9s  %s\n", what.c_str(), number(clips).c_str(), number(pooled).c_str(),
-              meaning.c_str());
+  std::printf("  %-22s %9s %9s  %s\n", what.c_str(), number(means.over_clips).c_str(),
+              number(means.pooled).c_str(), meaning.c_str());
+}
+
+Means in_degrees(const Means& radians) {
+  return {radians.over_clips * degrees, radians.pooled * degrees};
 }
 
 void print_recognition(const Evaluation& evaluation) {
-  print_row("step accuracy", "%.3f", evaluation.step_accuracy(false),
-            evaluation.step_accuracy(true), "share of frames with the right step, left or right");
-  if (std::isnan(evaluation.style_accuracy(false))) return;
-  print_row("style accuracy", "%.3f", evaluation.style_accuracy(false),
-            evaluation.style_accuracy(true), "share of frames with the right style");
-  print_row("  of whole clips", "%.3f", evaluation.style_accuracy_of_clips(), NAN,
+  print_row("step accuracy", "%.3f", evaluation.step_accuracy(),
+            "share of frames with the right step, left or right");
+  if (std::isnan(evaluation.style_accuracy().over_clips)) return;
+  print_row("style accuracy", "%.3f", evaluation.style_accuracy(),
+            "share of frames with the right style");
+  print_row("  of whole clips", "%.3f", {evaluation.style_accuracy_of_clips(), NAN},
             "share of clips with the right style");
-  print_row("  calibration error", "%.3f", NAN, evaluation.calibration_error,
+  print_row("  calibration error", "%.3f", {NAN, evaluation.calibration_error},
             "gap between how sure of the style and how often right; 0 is best");
 }
 
@@ -66,20 +70,16 @@ void print_outputs(const Evaluation& evaluation) {
                             "in what comes out: the same, smoothed"};
   for (const Estimate estimate : estimates)
     print_row("error, " + std::string(estimate_name(estimate)), "%.2f",
-              evaluation.error(estimate, false) * degrees,
-              evaluation.error(estimate, true) * degrees, meanings[static_cast<int>(estimate)]);
-  const std::pair<Source, const char*> sources[] = {
-      {Source::truth, "truth"}, {Source::mapped, "mapped"}, {Source::synthesised, "synthesised"}};
-  for (const auto& [source, name] : sources)
-    print_row("jerk, " + std::string(name), "%.0f", evaluation.jerk(source, false),
-              evaluation.jerk(source, true),
-              source == Source::truth ? "how abruptly joints move in the clips, rad/s^3" : "");
-  print_row("foot slide, captured", "%.0f", evaluation.foot_slide(Source::truth, false),
-            evaluation.foot_slide(Source::truth, true),
+              in_degrees(evaluation.error(estimate)), meanings[static_cast<int>(estimate)]);
+  print_row("jerk, truth", "%.0f", evaluation.jerk(Source::truth),
+            "how abruptly joints move in the clips, rad/s^3");
+  print_row("jerk, mapped", "%.0f", evaluation.jerk(Source::mapped), "");
+  print_row("jerk, synthesised", "%.0f", evaluation.jerk(Source::synthesised), "");
+  print_row("foot slide, captured", "%.0f", evaluation.foot_slide(Source::truth),
             "mm the standing foot travels per stance in the clips");
-  print_row("foot slide, found", "%.0f", evaluation.foot_slide(Source::synthesised, false),
-            evaluation.foot_slide(Source::synthesised, true), "the same in what comes out");
-  print_row("path", "%.3f", evaluation.path_ratio(false), evaluation.path_ratio(true),
+  print_row("foot slide, found", "%.0f", evaluation.foot_slide(Source::synthesised),
+            "the same in what comes out");
+  print_row("path", "%.3f", evaluation.path_ratio(),
             "way the found feet carry the hips, over the captured way; 1 is best");
 }
 
@@ -93,7 +93,7 @@ void print_styles(const Evaluation& evaluation) {
   for (const std::string& style : styles) {
     std::printf("  %-16s %5d", style.c_str(), clips_of(evaluation, style));
     for (const Estimate estimate : estimates)
-      std::printf(" %12.2f", evaluation.error(estimate, false, style) * degrees);
+      std::printf(" %12.2f", evaluation.error(estimate, style).over_clips * degrees);
     std::printf("\n");
   }
 }
@@ -106,7 +106,8 @@ void print_joints(const Evaluation& evaluation) {
   for (std::size_t i = 0; i < evaluation.output_names.size(); ++i) {
     std::printf("  %-22s", evaluation.output_names[i].c_str());
     for (const Estimate estimate : estimates)
-      std::printf(" %12.2f", evaluation.stream_error(estimate, static_cast<int>(i)) * degrees);
+      std::printf(" %12.2f",
+                  evaluation.stream_error(estimate, static_cast<int>(i)).over_clips * degrees);
     std::printf("%s\n", evaluation.counted[i] ? "" : "  (not in the errors above)");
   }
 }
@@ -132,8 +133,8 @@ void print_confusion(const Evaluation& evaluation) {
 ordered_json number(double value) {
   return std::isfinite(value) ? ordered_json(value) : ordered_json(nullptr);
 }
-ordered_json both(double clips, double pooled) {
-  return {{"clips", number(clips)}, {"pooled", number(pooled)}};
+ordered_json both(const Means& means) {
+  return {{"clips", number(means.over_clips)}, {"pooled", number(means.pooled)}};
 }
 std::string key_of(Estimate estimate) {
   std::string key(estimate_name(estimate));
@@ -141,21 +142,13 @@ std::string key_of(Estimate estimate) {
   return key;
 }
 
-ordered_json errors_json(const Evaluation& evaluation, const std::string& style) {
+// `error`: gives the radians of a estimate.
+template <typename Error>
+ordered_json errors_json(Error error) {
   ordered_json errors;
   for (const Estimate estimate : estimates)
-    errors[key_of(estimate)] = both(evaluation.error(estimate, false, style) * degrees,
-                                    evaluation.error(estimate, true, style) * degrees);
+    errors[key_of(estimate)] = both(in_degrees(error(estimate)));
   return errors;
-}
-
-ordered_json jerk_json(const Evaluation& evaluation) {
-  const auto of = [&](Source source) {
-    return both(evaluation.jerk(source, false), evaluation.jerk(source, true));
-  };
-  return {{"truth", of(Source::truth)},
-          {"mapped", of(Source::mapped)},
-          {"synthesised", of(Source::synthesised)}};
 }
 
 ordered_json clip_json(const EvaluatedClip& clip, const Evaluation& evaluation) {
@@ -165,19 +158,19 @@ ordered_json clip_json(const EvaluatedClip& clip, const Evaluation& evaluation) 
   alone.clips = {clip};
   ordered_json errors;
   for (const Estimate estimate : estimates)
-    errors[key_of(estimate)] = number(alone.error(estimate, false) * degrees);
+    errors[key_of(estimate)] = number(alone.error(estimate).over_clips * degrees);
   return {{"clip", clip.name},
           {"style", clip.style},
           {"recognised_style",
            clip.best_style < 0 ? std::string() : evaluation.styles[clip.best_style]},
           {"frames", clip.frames},
-          {"step_accuracy", number(alone.step_accuracy(false))},
-          {"style_accuracy", number(alone.style_accuracy(false))},
+          {"step_accuracy", number(alone.step_accuracy().over_clips)},
+          {"style_accuracy", number(alone.style_accuracy().over_clips)},
           {"output_error_deg", errors},
-          {"path_ratio", number(alone.path_ratio(false))},
+          {"path_ratio", number(alone.path_ratio().over_clips)},
           {"foot_slide_mm",
-           {{"captured", number(alone.foot_slide(Source::truth, false))},
-            {"synthesised", number(alone.foot_slide(Source::synthesised, false))}}}};
+           {{"captured", number(alone.foot_slide(Source::truth).over_clips)},
+            {"synthesised", number(alone.foot_slide(Source::synthesised).over_clips)}}}};
 }
 
 ordered_json confusion_json(const Evaluation& evaluation) {
@@ -213,13 +206,12 @@ void print_json(const Evaluation& evaluation, const Model& model) {
   ordered_json styles = ordered_json::object(), joints = ordered_json::object();
   for (const std::string& style : styles_of(evaluation))
     styles[style] = {{"clips", clips_of(evaluation, style)},
-                     {"output_error_deg", errors_json(evaluation, style)}};
+                     {"output_error_deg", errors_json([&](Estimate estimate) {
+                        return evaluation.error(estimate, style);
+                      })}};
   for (std::size_t i = 0; i < evaluation.output_names.size(); ++i) {
-    const int stream = static_cast<int>(i);
-    ordered_json errors;
-    for (const Estimate estimate : estimates)
-      errors[key_of(estimate)] = both(evaluation.stream_error(estimate, stream, false) * degrees,
-                                      evaluation.stream_error(estimate, stream, true) * degrees);
+    const ordered_json errors = errors_json(
+        [&](Estimate estimate) { return evaluation.stream_error(estimate, static_cast<int>(i)); });
     joints[evaluation.output_names[i]] = {{"counted", bool(evaluation.counted[i])},
                                           {"output_error_deg", errors}};
   }
@@ -231,21 +223,23 @@ void print_json(const Evaluation& evaluation, const Model& model) {
       {"synthetic", model.training.synthetic},
       {"clips", evaluation.clips.size()},
       {"skipped", evaluation.skipped},
-      {"step_accuracy", both(evaluation.step_accuracy(false), evaluation.step_accuracy(true))},
-      {"style_accuracy", both(evaluation.style_accuracy(false), evaluation.style_accuracy(true))},
+      {"step_accuracy", both(evaluation.step_accuracy())},
+      {"style_accuracy", both(evaluation.style_accuracy())},
       {"style_accuracy_of_clips", number(evaluation.style_accuracy_of_clips())},
-      {"style_calibration_error", std::isnan(evaluation.style_accuracy(true))
+      {"style_calibration_error", std::isnan(evaluation.style_accuracy().pooled)
                                       ? ordered_json(nullptr)
                                       : number(evaluation.calibration_error)},
       {"style_confusion", confusion_json(evaluation)},
-      {"output_error_deg", errors_json(evaluation, "")},
-      {"jerk", jerk_json(evaluation)},
+      {"output_error_deg",
+       errors_json([&](Estimate estimate) { return evaluation.error(estimate); })},
+      {"jerk",
+       {{"truth", both(evaluation.jerk(Source::truth))},
+        {"mapped", both(evaluation.jerk(Source::mapped))},
+        {"synthesised", both(evaluation.jerk(Source::synthesised))}}},
       {"foot_slide_mm",
-       {{"captured", both(evaluation.foot_slide(Source::truth, false),
-                          evaluation.foot_slide(Source::truth, true))},
-        {"synthesised", both(evaluation.foot_slide(Source::synthesised, false),
-                             evaluation.foot_slide(Source::synthesised, true))}}},
-      {"path_ratio", both(evaluation.path_ratio(false), evaluation.path_ratio(true))},
+       {{"captured", both(evaluation.foot_slide(Source::truth))},
+        {"synthesised", both(evaluation.foot_slide(Source::synthesised))}}},
+      {"path_ratio", both(evaluation.path_ratio())},
       {"frame_microseconds",
        {{"p50", number(evaluation.frame_time(0.5))},
         {"p99", number(evaluation.frame_time(0.99))},

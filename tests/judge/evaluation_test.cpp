@@ -29,12 +29,11 @@ const Evaluation& evaluation() {
 TEST(Evaluation, each_stage_adds_something) {
   const Evaluation& all = evaluation();
   ASSERT_EQ(all.clips.size(), 3u);
-  for (const bool pooled : {false, true}) {
-    EXPECT_GT(all.error(Estimate::mean_pose, pooled), all.error(Estimate::state_means, pooled));
-    EXPECT_GT(all.error(Estimate::state_means, pooled), all.error(Estimate::mapped, pooled));
-    EXPECT_LT(all.error(Estimate::synthesised, pooled),
-              all.error(Estimate::mapped, pooled) + 0.001);
-    EXPECT_GT(all.step_accuracy(pooled), 0.9);
+  for (const auto mean : {&Means::over_clips, &Means::pooled}) {
+    EXPECT_GT(all.error(Estimate::mean_pose).*mean, all.error(Estimate::state_means).*mean);
+    EXPECT_GT(all.error(Estimate::state_means).*mean, all.error(Estimate::mapped).*mean);
+    EXPECT_LT(all.error(Estimate::synthesised).*mean, all.error(Estimate::mapped).*mean + 0.001);
+    EXPECT_GT(all.step_accuracy().*mean, 0.9);
   }
   for (const EvaluatedClip& clip : all.clips) {
     EXPECT_LT(clip.jerk_synthesised, clip.jerk_mapped) << clip.name;
@@ -56,8 +55,8 @@ TEST(Evaluation, means_over_clips_and_frames_are_what_they_say) {
     sum += joints / counted;
     frames += clip.frames;
   }
-  EXPECT_NEAR(all.error(Estimate::mapped, false), over_clips, 1e-12);
-  EXPECT_NEAR(all.error(Estimate::mapped, true), sum / frames, 1e-12);
+  EXPECT_NEAR(all.error(Estimate::mapped).over_clips, over_clips, 1e-12);
+  EXPECT_NEAR(all.error(Estimate::mapped).pooled, sum / frames, 1e-12);
   int hips = 0;
   for (std::size_t i = 0; i < all.counted.size(); ++i) hips += !all.counted[i];
   EXPECT_EQ(hips, 1) << "the hips are not counted";
@@ -70,12 +69,12 @@ TEST(Evaluation, counts_styles_that_the_model_knows) {
   EXPECT_TRUE(all.clips[0].style_known);
   EXPECT_FALSE(all.clips[2].style_known) << "heavy was not taught";
   EXPECT_EQ(all.confusion.sum(), all.clips[0].frames + all.clips[1].frames);
-  EXPECT_NEAR(all.style_accuracy(true),
+  EXPECT_NEAR(all.style_accuracy().pooled,
               all.confusion.diagonal().sum() / static_cast<double>(all.confusion.sum()), 1e-12);
-  EXPECT_GT(all.style_accuracy(false), 0.8);
+  EXPECT_GT(all.style_accuracy().over_clips, 0.8);
   EXPECT_EQ(all.style_accuracy_of_clips(), 1);
-  EXPECT_TRUE(std::isnan(all.error(Estimate::mapped, false, "no such style")));
-  EXPECT_GT(all.error(Estimate::mapped, false, "sad"), 0);
+  EXPECT_TRUE(std::isnan(all.error(Estimate::mapped, "no such style").over_clips));
+  EXPECT_GT(all.error(Estimate::mapped, "sad").over_clips, 0);
   EXPECT_GE(all.calibration_error, 0);
   EXPECT_LE(all.calibration_error, 1);
 }
@@ -100,8 +99,8 @@ TEST(Evaluation, errors_are_those_of_a_sequence_played_by_hand) {
     knee += stream_errors(*model, played.outputs.col(frame), truth.outputs.col(frame))[stream];
   }
   const double frames = played.end - played.begin;
-  EXPECT_NEAR(one.step_accuracy(true), right / frames, 1e-12);
-  EXPECT_NEAR(one.stream_error(Estimate::synthesised, stream), knee / frames, 1e-9);
+  EXPECT_NEAR(one.step_accuracy().pooled, right / frames, 1e-12);
+  EXPECT_NEAR(one.stream_error(Estimate::synthesised, stream).over_clips, knee / frames, 1e-9);
 }
 
 TEST(Evaluation, skips_clips_without_steps_and_says_so) {

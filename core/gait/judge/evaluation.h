@@ -46,8 +46,12 @@ struct EvaluatedClip {
 // Whose movement is meant where the truth is measured, too.
 enum class Source { truth, mapped, synthesised };
 
-// `pooled`: over all frames (or stances) together, else mean over clips. NaN where there is nothing
-// to average.
+// Two means of one figure. NaN where there is nothing to average.
+struct Means {
+  double over_clips = 0;  // of the clips' own means
+  double pooled = 0;      // over all frames (or stances) together
+};
+
 struct Evaluation {
   std::vector<EvaluatedClip> clips;
   std::vector<std::string> skipped;        // clips with too few steps, each with the reason
@@ -59,15 +63,16 @@ struct Evaluation {
   std::vector<double> frame_microseconds;  // one per frame of all clips, ascending
   int delay_frames = 0;
 
-  // Mean angle of the counted streams: over clips, or pooled over frames; of one style if named.
-  double error(Estimate estimate, bool pooled, const std::string& style = {}) const;
-  double stream_error(Estimate estimate, int stream, bool pooled = false) const;
-  double step_accuracy(bool pooled) const;
-  double style_accuracy(bool pooled) const;             // per frame; NaN without known styles
-  double style_accuracy_of_clips() const;               // share of clips; NaN without known styles
-  double jerk(Source source, bool pooled) const;        // mean over the counted streams
-  double foot_slide(Source source, bool pooled) const;  // per stance; of truth or synthesised
-  double path_ratio(bool pooled) const;      // root's path from the feet over the captured path
+  Means error(Estimate estimate,
+              const std::string& style = {}) const;         // angle of the counted streams;
+                                                            // of one style if named
+  Means stream_error(Estimate estimate, int stream) const;  // angle
+  Means step_accuracy() const;                              // share of frames
+  Means style_accuracy() const;              // share of frames of the clips with a known style
+  double style_accuracy_of_clips() const;    // share of clips; NaN without known styles
+  Means jerk(Source source) const;           // of the counted streams
+  Means foot_slide(Source source) const;     // per stance; of truth or synthesised
+  Means path_ratio() const;                  // root's path from the feet over the captured path
   double frame_time(double quantile) const;  // microseconds; quantile 0 to 1
 };
 

@@ -1,6 +1,7 @@
 // The means of an evaluation.
 #include <algorithm>
 #include <cmath>
+#include <functional>
 #include <limits>
 
 #include "gait/judge/evaluation.h"
@@ -11,17 +12,20 @@ namespace {
 
 constexpr double none = std::numeric_limits<double>::quiet_NaN();
 
-// Mean of per-clip shares, or of all frames together.
+// `sum` over `count`, which are members of EvaluatedClip or functions of one.
 template <typename Sum, typename Count>
-double averaged(const std::vector<EvaluatedClip>& clips, bool pooled, Sum sum, Count count) {
-  double total = 0, weight = 0;
+Means averaged(const std::vector<EvaluatedClip>& clips, Sum sum, Count count) {
+  double shares = 0, averaged_clips = 0, total = 0, weight = 0;
   for (const EvaluatedClip& clip : clips) {
-    const double frames = count(clip);
+    const double frames = std::invoke(count, clip);
     if (frames <= 0) continue;
-    total += pooled ? sum(clip) : sum(clip) / frames;
-    weight += pooled ? frames : 1;
+    const double of_clip = std::invoke(sum, clip);
+    shares += of_clip / frames;
+    averaged_clips += 1;
+    total += of_clip;
+    weight += frames;
   }
-  return weight > 0 ? total / weight : none;
+  return weight > 0 ? Means{shares / averaged_clips, total / weight} : Means{none, none};
 }
 
 double counted_mean(const Eigen::VectorXd& sums, const std::vector<bool>& counted) {
@@ -34,9 +38,9 @@ double counted_mean(const Eigen::VectorXd& sums, const std::vector<bool>& counte
 
 }  // namespace
 
-double Evaluation::error(Estimate estimate, bool pooled, const std::string& style) const {
+Means Evaluation::error(Estimate estimate, const std::string& style) const {
   return averaged(
-      clips, pooled,
+      clips,
       [&](const EvaluatedClip& clip) {
         return counted_mean(clip.angle_sums[static_cast<int>(estimate)], counted);
       },
@@ -45,25 +49,22 @@ double Evaluation::error(Estimate estimate, bool pooled, const std::string& styl
       });
 }
 
-double Evaluation::stream_error(Estimate estimate, int stream, bool pooled) const {
+Means Evaluation::stream_error(Estimate estimate, int stream) const {
   return averaged(
-      clips, pooled,
+      clips,
       [&](const EvaluatedClip& clip) {
         return clip.angle_sums[static_cast<int>(estimate)][stream];
       },
-      [](const EvaluatedClip& clip) { return clip.frames; });
+      &EvaluatedClip::frames);
 }
 
-double Evaluation::step_accuracy(bool pooled) const {
-  return averaged(
-      clips, pooled, [](const EvaluatedClip& clip) { return clip.right_steps; },
-      [](const EvaluatedClip& clip) { return clip.frames; });
+Means Evaluation::step_accuracy() const {
+  return averaged(clips, &EvaluatedClip::right_steps, &EvaluatedClip::frames);
 }
 
-double Evaluation::style_accuracy(bool pooled) const {
-  return averaged(
-      clips, pooled, [](const EvaluatedClip& clip) { return clip.right_styles; },
-      [](const EvaluatedClip& clip) { return clip.style_known ? clip.frames : 0; });
+Means Evaluation::style_accuracy() const {
+  return averaged(clips, &EvaluatedClip::right_styles,
+                  [](const EvaluatedClip& clip) { return clip.style_known ? clip.frames : 0; });
 }
 
 double Evaluation::style_accuracy_of_clips() const {
@@ -76,30 +77,21 @@ double Evaluation::style_accuracy_of_clips() const {
   return known > 0 ? right / known : none;
 }
 
-double Evaluation::jerk(Source source, bool pooled) const {
-  return averaged(
-      clips, pooled,
-      [&](const EvaluatedClip& clip) {
-        return source == Source::truth    ? clip.jerk_truth
-               : source == Source::mapped ? clip.jerk_mapped
-                                          : clip.jerk_synthesised;
-      },
-      [](const EvaluatedClip& clip) { return clip.jerk_frames; });
+Means Evaluation::jerk(Source source) const {
+  const auto sum = source == Source::truth    ? &EvaluatedClip::jerk_truth
+                   : source == Source::mapped ? &EvaluatedClip::jerk_mapped
+                                              : &EvaluatedClip::jerk_synthesised;
+  return averaged(clips, sum, &EvaluatedClip::jerk_frames);
 }
 
-double Evaluation::foot_slide(Source source, bool pooled) const {
-  return averaged(
-      clips, pooled,
-      [&](const EvaluatedClip& clip) {
-        return source == Source::truth ? clip.slide_captured : clip.slide_synthesised;
-      },
-      [](const EvaluatedClip& clip) { return clip.stances; });
+Means Evaluation::foot_slide(Source source) const {
+  const auto sum =
+      source == Source::truth ? &EvaluatedClip::slide_captured : &EvaluatedClip::slide_synthesised;
+  return averaged(clips, sum, &EvaluatedClip::stances);
 }
 
-double Evaluation::path_ratio(bool pooled) const {
-  return averaged(
-      clips, pooled, [](const EvaluatedClip& clip) { return clip.path_synthesised; },
-      [](const EvaluatedClip& clip) { return clip.path_captured; });
+Means Evaluation::path_ratio() const {
+  return averaged(clips, &EvaluatedClip::path_synthesised, &EvaluatedClip::path_captured);
 }
 
 double Evaluation::frame_time(double quantile) const {
