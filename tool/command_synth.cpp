@@ -7,10 +7,8 @@
 
 #include "commands.h"
 #include "gait/corpus/demo_model.h"
-#include "gait/files/bvh.h"
 #include "gait/offline/planned_walk.h"
 #include "option_kinds.h"
-#include "output_file.h"
 #include "style_words.h"
 #include "walk_output.h"
 
@@ -53,11 +51,10 @@ StyledWalkPlan plan_of(const SynthOptions& options) {
 
 void synth(const SynthOptions& options) {
   const StyledWalkPlan plan = plan_of(options);
-  OutputFile output(options.walk.path);
-  const auto model = std::make_shared<const Model>(model_named(options.model));
-  const Clip clip = options.engine == "step" ? stepped_walk(model, plan) : styled_walk(model, plan);
-  write_bvh(bvh_from_clip(clip), output.part());
-  output.keep();
+  write_walk(options.walk, [&] {
+    const auto model = std::make_shared<const Model>(model_named(options.model));
+    return options.engine == "step" ? stepped_walk(model, plan) : styled_walk(model, plan);
+  });
 }
 
 void add_options(CLI::App& app, SynthOptions& options) {

@@ -7,10 +7,8 @@
 #include "clip_reader.h"
 #include "commands.h"
 #include "gait/corpus/demo_model.h"
-#include "gait/files/bvh.h"
 #include "gait/offline/planned_walk.h"
 #include "option_kinds.h"
-#include "output_file.h"
 #include "speed_words.h"
 #include "walk_output.h"
 
@@ -45,12 +43,12 @@ SpeedWalkPlan plan_of(const WalkOptionsSaid& options) {
 
 void walk(const WalkOptionsSaid& options) {
   const SpeedWalkPlan plan = plan_of(options);
-  OutputFile output(options.walk.path);
-  const auto model = std::make_shared<const Model>(model_named(options.model));
-  const SpeedWalk walked = speed_walk(model, plan);
-  print_warnings("walk", walked.remarks);
-  write_bvh(bvh_from_clip(walked.clip), output.part());
-  output.keep();
+  write_walk(options.walk, [&] {
+    const auto model = std::make_shared<const Model>(model_named(options.model));
+    SpeedWalk walked = speed_walk(model, plan);
+    print_warnings("walk", walked.remarks);
+    return walked.clip;
+  });
 }
 
 void add_options(CLI::App& app, WalkOptionsSaid& options) {

@@ -31,19 +31,10 @@ Command make_command(CLI::App& program, const char* name, const char* purpose,
   return {app, [options, work] { work(*options); }};
 }
 
-Command corpus_command(CLI::App& program);
-Command label_command(CLI::App& program);
-Command render_command(CLI::App& program);
-Command train_command(CLI::App& program);
-Command info_command(CLI::App& program);
-Command evaluate_command(CLI::App& program);
-Command reconstruct_command(CLI::App& program);
-Command synth_command(CLI::App& program);
-Command walk_command(CLI::App& program);
-Command plot_command(CLI::App& program);
-
-// Only in builds with liblo (GAIT_HAS_OSC).
-Command stream_command(CLI::App& program);
-Command listen_command(CLI::App& program);
+// Each adds one subcommand to the program.
+using AddCommand = Command(CLI::App& program);
+AddCommand corpus_command, label_command, train_command, info_command, evaluate_command,
+    reconstruct_command, synth_command, walk_command, render_command, plot_command;
+AddCommand stream_command, listen_command;  // only in builds with liblo (GAIT_HAS_OSC)
 
 }  // namespace gait::tool

@@ -83,16 +83,16 @@ int main(int argc, char** argv) try {
   program.option_defaults()->always_capture_default();
   program.require_subcommand(1);
 
-  const std::vector<Command> commands = {
-      gait::tool::corpus_command(program),   gait::tool::label_command(program),
-      gait::tool::train_command(program),    gait::tool::info_command(program),
-      gait::tool::evaluate_command(program), gait::tool::reconstruct_command(program),
-      gait::tool::synth_command(program),    gait::tool::walk_command(program),
-      gait::tool::render_command(program),   gait::tool::plot_command(program),
+  using namespace gait::tool;
+  std::vector<Command> commands;
+  for (AddCommand* add :
+       {corpus_command, label_command, train_command, info_command, evaluate_command,
+        reconstruct_command, synth_command, walk_command, render_command, plot_command,
 #ifdef GAIT_HAS_OSC
-      gait::tool::stream_command(program),   gait::tool::listen_command(program),
+        stream_command, listen_command
 #endif
-  };
+       })
+    commands.push_back(add(program));
   for (const Command& command : commands)
     command.app->set_help_flag("-h,--help", "What this subcommand does");
   program.footer(

@@ -3,7 +3,10 @@
 #pragma once
 
 #include <CLI/CLI.hpp>
+#include <functional>
 #include <string>
+
+#include "gait/motion/clip.h"
 
 namespace gait::tool {
 
@@ -20,5 +23,9 @@ void add_walk_output(CLI::App& app, WalkOutput& output);
 
 // Checks --seconds, how long to walk.
 CLI::Validator walk_seconds();
+
+// Writes the clip that `walk` gives as a BVH file. Throws Error when there is no place for it,
+// before `walk` is called.
+void write_walk(const WalkOutput& output, const std::function<Clip()>& walk);
 
 }  // namespace gait::tool
