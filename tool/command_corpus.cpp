@@ -1,18 +1,13 @@
 // gait corpus: the built-in walks as files.
 #include <cstdint>
 #include <cstdio>
-#include <filesystem>
 #include <map>
 #include <string>
-#include <system_error>
 #include <utility>
 #include <vector>
 
 #include "commands.h"
 #include "gait/corpus/corpus.h"
-#include "gait/error.h"
-#include "gait/files/bvh.h"
-#include "gait/files/label_file.h"
 #include "json_report.h"
 #include "option_kinds.h"
 #include "progress.h"
@@ -32,37 +27,23 @@ struct StyleCount {
   double seconds = 0;
 };
 
-void write_walk(const CorpusWalk& walk, const std::filesystem::path& folder) {
-  const std::filesystem::path bvh = folder / corpus_file_name(walk);
-  write_bvh(bvh_from_clip(walk.clip), bvh);
-  write_labels(labels_from_contacts(walk.contacts, walk.clip.frame_rate), LabelForm::audacity,
-               std::filesystem::path(bvh).replace_extension(".txt"));
-}
-
 void corpus(const CorpusOptions& options) {
-  const std::filesystem::path folder = options.folder;
-  std::error_code failure;
-  std::filesystem::create_directories(folder, failure);
-  if (failure)
-    throw Error(options.folder + ": expected a folder to write to: " + failure.message());
-
   std::vector<CorpusWalk> walks = make_corpus(options.seed);
   if (options.speeds)
     for (CorpusWalk& walk : make_speed_walks(options.seed)) walks.push_back(std::move(walk));
-  std::map<std::string, StyleCount> styles;
-  std::vector<std::string> order;
   {
     Progress progress("gait corpus: writing walks");
-    for (std::size_t i = 0; i < walks.size(); ++i) {
-      write_walk(walks[i], folder);
-      const std::string& name = walks[i].style.empty() ? walks[i].subject : walks[i].style;
-      if (!styles.contains(name)) order.push_back(name);
-      StyleCount& style = styles[name];
-      ++style.clips;
-      style.cycles += static_cast<int>(cycles_between(walks[i].contacts).size());
-      style.seconds += walks[i].clip.frames() / walks[i].clip.frame_rate;
-      progress.show(static_cast<double>(i + 1) / static_cast<double>(walks.size()));
-    }
+    write_corpus(options.folder, walks, 1, [&](double share) { progress.show(share); });
+  }
+  std::map<std::string, StyleCount> styles;
+  std::vector<std::string> order;
+  for (const CorpusWalk& walk : walks) {
+    const std::string& name = walk.style.empty() ? walk.subject : walk.style;
+    if (!styles.contains(name)) order.push_back(name);
+    StyleCount& style = styles[name];
+    ++style.clips;
+    style.cycles += static_cast<int>(cycles_between(walk.contacts).size());
+    style.seconds += walk.clip.frames() / walk.clip.frame_rate;
   }
 
   if (options.json) {

@@ -83,7 +83,11 @@ double speed_of(const std::string& text, const CsvReader& reader) {
 
 }  // namespace
 
-Manifest parse_manifest(std::string_view text, const std::filesystem::path& path) {
+Manifest read_manifest(const std::filesystem::path& path) {
+  std::ifstream file(path, std::ios::binary);
+  if (!file) throw Error(path.string() + ": cannot be read");
+  const std::string text{std::istreambuf_iterator<char>(file), {}};
+  if (file.bad()) throw Error(path.string() + ": cannot be read");
   CsvReader reader(text, path.string());
   Manifest manifest;
   std::vector<std::string> columns, row;
@@ -116,14 +120,6 @@ Manifest parse_manifest(std::string_view text, const std::filesystem::path& path
     manifest.entries.push_back(std::move(entry));
   }
   return manifest;
-}
-
-Manifest read_manifest(const std::filesystem::path& path) {
-  std::ifstream file(path, std::ios::binary);
-  if (!file) throw Error(path.string() + ": cannot be read");
-  const std::string text{std::istreambuf_iterator<char>(file), {}};
-  if (file.bad()) throw Error(path.string() + ": cannot be read");
-  return parse_manifest(text, path);
 }
 
 }  // namespace gait::tool

@@ -7,7 +7,6 @@
 
 #include <filesystem>
 #include <string>
-#include <string_view>
 #include <vector>
 
 #include "name_pattern.h"
@@ -22,12 +21,11 @@ struct ManifestEntry {
 
 struct Manifest {
   std::vector<ManifestEntry> entries;
-  std::vector<std::string> warnings;  // columns that are not understood
+  std::vector<std::string> warnings;  // columns that are not known
 };
 
 // The first line names the columns, in any order; `file` must be there. Fields may stand in double
 // quotes, a quote within is doubled. Throws Error with file and line.
 Manifest read_manifest(const std::filesystem::path& path);
-Manifest parse_manifest(std::string_view text, const std::filesystem::path& path);
 
 }  // namespace gait::tool

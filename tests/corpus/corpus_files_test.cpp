@@ -22,7 +22,7 @@ TEST(CorpusFiles, walks_written_and_read_again_are_the_same) {
     plan.take = 3;
     walks.push_back(make_walk(plan));
   }
-  const auto paths = write_corpus(folder, walks);
+  const auto paths = write_corpus(folder, walks, 0.01);
   ASSERT_EQ(paths.size(), 2u);
   EXPECT_EQ(paths[0].filename(), "walk_cat-walk_3.bvh");
   for (std::size_t i = 0; i < paths.size(); ++i) {

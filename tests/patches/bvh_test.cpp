@@ -105,7 +105,7 @@ TEST(BvhObject, opens_files_with_their_labels_and_plays_them_by_its_own_clock) {
   GAIT_NEEDS_PD();
   const std::filesystem::path folder = ::testing::TempDir() + "gait_bvh_object";
   CorpusWalk made = make_walk({.style = corpus_style("heavy"), .cycles = 3, .take = 7}, 60);
-  const auto path = write_corpus(folder, {&made, 1}).front();
+  const auto path = write_corpus(folder, {&made, 1}, 0.01).front();
   BvhPatch patch("gait-demo");
   patch.at_start({"open " + path.string(), "start", "start"}, patch.bvh);
   const PdRun run = clean_run(patch, 1010);

@@ -199,7 +199,7 @@ TEST(TrainObject, takes_clips_for_takes) {
   GAIT_NEEDS_PD();
   WalkPlan plan{.style = corpus_style("sad")};
   const CorpusWalk walk = make_walk(plan);
-  const auto path = write_corpus(::testing::TempDir() + "gait_clips", {&walk, 1}).front();
+  const auto path = write_corpus(::testing::TempDir() + "gait_clips", {&walk, 1}, 0.01).front();
   Patch patch;
   patch.object("gait.model gait-demo -blocking");
   const int train = patch.object("gait.train mine -blocking");

@@ -52,6 +52,4 @@ std::vector<CorpusWalk> make_corpus(std::uint64_t seed, double frame_rate) {
   return corpus;
 }
 
-std::string corpus_file_name(const CorpusWalk& walk) { return walk.clip.name + ".bvh"; }
-
 }  // namespace gait

@@ -2,11 +2,12 @@
 // cycles of each as its Table 1, in several passages as an actor walking back and forth gives.
 //
 // Drawn from the mean human gait (mean_gait.h) and a list of changes per style (walk_styles.cpp).
-// Nobody walked them: they are a demonstration, and a source of exact truth for tests.
+// They are computed, not captured: a demonstration, and a source of exact truth for tests.
 #pragma once
 
 #include <cstdint>
 #include <filesystem>
+#include <functional>
 #include <span>
 #include <string>
 #include <string_view>
@@ -30,14 +31,14 @@ struct CorpusWalk {
   std::string style;
   int take = 1;         // from 1
   std::string subject;  // of walks over speed
-  double speed = 0;     // m/s; 0: not told
+  double speed = 0;     // m/s; 0: unknown
 };
 
 // The walk of a plan at any frame rate: the same motion, sampled from the same first moment.
 CorpusWalk make_walk(const WalkPlan& plan, double frame_rate = 30);
 
 // All walks of the corpus, style by style in corpus_styles' order, take by take. The same seed
-// gives the same walks, another seed another actor's day.
+// gives the same walks; another seed varies them as another day of the same actor would.
 std::vector<CorpusWalk> make_corpus(std::uint64_t seed = 1, double frame_rate = 30);
 
 // The neutral walk at 0.6, 0.8, ... 2.0 m/s, names walk_neutral_SPEED: one subject over speed (G04
@@ -47,13 +48,12 @@ std::vector<CorpusWalk> make_speed_walks(std::uint64_t seed = 1, double frame_ra
 // How many cycles each take of a style has: passages of four to six, together `cycles`.
 std::vector<int> cycles_of_takes(int cycles);
 
-// "walk_sad_3.bvh"
-std::string corpus_file_name(const CorpusWalk& walk);
-
-// Writes the walks as BVH files, in centimetres as most programs expect, and beside each an
-// Audacity label file of its steps (walk_sad_3.txt). Makes the folder. Returns the paths of the BVH
-// files. Throws Error when something cannot be written.
+// Writes each walk as a BVH file in units of `metres_per_unit`, and beside it an Audacity label
+// file of its steps (walk_sad_3.txt). Makes the folder. Calls `progress` after each walk with the
+// share done. Returns the paths of the BVH files. Throws Error when a file cannot be written.
 std::vector<std::filesystem::path> write_corpus(const std::filesystem::path& folder,
-                                                std::span<const CorpusWalk> walks);
+                                                std::span<const CorpusWalk> walks,
+                                                double metres_per_unit = 1,
+                                                const std::function<void(double)>& progress = {});
 
 }  // namespace gait

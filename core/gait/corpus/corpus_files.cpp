@@ -8,8 +8,8 @@
 namespace gait {
 namespace {
 
-Clip in_centimetres(Clip clip) {
-  constexpr double scale = 100;
+Clip in_units(Clip clip, double metres_per_unit) {
+  const double scale = 1 / metres_per_unit;
   for (Joint& joint : clip.skeleton.joints) {
     joint.offset *= scale;
     for (Eigen::Vector3d& tip : joint.tips) tip *= scale;
@@ -21,18 +21,20 @@ Clip in_centimetres(Clip clip) {
 }  // namespace
 
 std::vector<std::filesystem::path> write_corpus(const std::filesystem::path& folder,
-                                                std::span<const CorpusWalk> walks) {
+                                                std::span<const CorpusWalk> walks,
+                                                double metres_per_unit,
+                                                const std::function<void(double)>& progress) {
   std::error_code failure;
   std::filesystem::create_directories(folder, failure);
   if (failure)
-    throw Error(folder.string() +
-                ": a folder for the walks was expected, but cannot be made: " + failure.message());
+    throw Error(folder.string() + ": expected a folder to write to: " + failure.message());
   std::vector<std::filesystem::path> paths;
   for (const CorpusWalk& walk : walks) {
-    paths.push_back(folder / corpus_file_name(walk));
-    write_bvh(bvh_from_clip(in_centimetres(walk.clip)), paths.back());
+    paths.push_back(folder / (walk.clip.name + ".bvh"));
+    write_bvh(bvh_from_clip(in_units(walk.clip, metres_per_unit)), paths.back());
     write_labels(labels_from_contacts(walk.contacts, walk.clip.frame_rate), LabelForm::audacity,
                  std::filesystem::path(paths.back()).replace_extension(".txt"));
+    if (progress) progress(static_cast<double>(paths.size()) / static_cast<double>(walks.size()));
   }
   return paths;
 }

@@ -9,7 +9,7 @@ namespace gait {
 
 namespace {
 
-constexpr double hips_height = 0.9;  // metres; nobody asks: steps are found against the hips
+constexpr double hips_height = 0.9;  // metres; any will do, as steps are found relative to the hips
 
 std::vector<std::string> names_of(const Body& body, const std::vector<int>& joints) {
   std::vector<std::string> names;
@@ -20,8 +20,6 @@ std::vector<std::string> names_of(const Body& body, const std::vector<int>& join
 double rate_of(const RecordedTake& take) {
   return take.duration() > 0 ? (take.frames() - 1) / take.duration() : 0;
 }
-
-}  // namespace
 
 std::vector<Walk> walks_of_takes(const std::vector<RecordedTake>& takes, const Body& body) {
   const auto joints = body.references.size();
@@ -54,6 +52,8 @@ std::vector<Walk> walks_of_takes(const std::vector<RecordedTake>& takes, const B
   }
   return walks;
 }
+
+}  // namespace
 
 TakesLearnt learn_walk_takes(const std::vector<RecordedTake>& takes, const Body& body,
                              const std::string& name, const TakeOptions& options) {

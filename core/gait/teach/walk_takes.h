@@ -1,5 +1,5 @@
-// Learning to walk from what a patch recorded: whole poses of a body, a style per take. Steps are
-// found in them as in any clip; nobody has to say where one begins.
+// Learning to walk from takes that a patch recorded: whole poses of a body, a style per take. Steps
+// are found in them as in any clip.
 #pragma once
 
 #include <string>
@@ -10,13 +10,10 @@
 
 namespace gait {
 
-// Takes of poses (inputs: three values per joint of the body, rotation vectors relative to its
-// references; outputs: none) as walks on the spot, label as style. Throws Error naming a take of
-// another size.
-std::vector<Walk> walks_of_takes(const std::vector<RecordedTake>& takes, const Body& body);
-
-// A model of walking with the steps, styles and the space of styles of these takes. Joints are
-// measured and synthesised as `body` has it. Throws Error as select_walk_model does.
+// A model of walking with the steps, styles and the space of styles of these takes: poses (inputs:
+// three values per joint of `body`, rotation vectors relative to its references; outputs: none)
+// that become walks on the spot, with the label as style. Joints are measured and synthesised as
+// `body` has it. Throws Error naming a take of another size, and as learn_walks does.
 TakesLearnt learn_walk_takes(const std::vector<RecordedTake>& takes, const Body& body,
                              const std::string& name, const TakeOptions& options = {});
 

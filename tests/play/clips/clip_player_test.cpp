@@ -308,7 +308,7 @@ class FolderOfWalks : public ::testing::Test {
 TEST_F(FolderOfWalks, are_read_in_centimetres_with_their_labels_or_contacts_of_their_own) {
   const auto model = few_walks_model();
   const CorpusWalk walk = make_walk(plan_of("sad", 9));
-  const auto path = write_corpus(folder_, {&walk, 1}).front();
+  const auto path = write_corpus(folder_, {&walk, 1}, 0.01).front();
   const BodyMotion read = motion_named(path.string(), *model), made = *motion_of(walk, *model);
   ASSERT_EQ(read.frames(), made.frames());
   EXPECT_EQ(read.contacts, made.contacts);
@@ -342,7 +342,7 @@ TEST_F(FolderOfWalks, that_cannot_be_played_are_refused_with_the_reason) {
   EXPECT_NE(reason("gait-demo:sad:0").find("from 1"), std::string::npos);
 
   const CorpusWalk walk = make_walk(plan_of("sad", 9));
-  const auto path = write_corpus(folder_, {&walk, 1}).front();
+  const auto path = write_corpus(folder_, {&walk, 1}, 0.01).front();
   const auto labels = std::filesystem::path(path).replace_extension(".txt");
   write_labels({{0, 0.5, "right"}, {0.4, 0.9, "left"}}, LabelForm::audacity, labels);
   EXPECT_NE(reason(path.string()).find(labels.string()), std::string::npos);
