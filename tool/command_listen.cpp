@@ -88,7 +88,7 @@ void add_options(CLI::App& app, ListenOptions& options) {
       ->check(within(0.1, 36000));
   add_choice(app, "--form", {"vmc", "natnet", "neuron", "kinect", "gait"}, options.form,
              "Read only this form (whichever comes)");
-  app.add_flag("--any", options.any, "From other machines too, not from this one alone")
+  app.add_flag("--any", options.any, "Receive from other machines too, not only from this one")
       ->default_str("");
   app.footer(R"(Examples:
   gait listen 39539 -o take.bvh --seconds 30

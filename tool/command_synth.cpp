@@ -1,4 +1,4 @@
-// gait synth: a walk in a model's styles, as long as one likes, out of nothing.
+// gait synth: writes a walk of any length in a model's styles, without an input clip.
 #include <algorithm>
 #include <memory>
 #include <optional>

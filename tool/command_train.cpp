@@ -45,7 +45,7 @@ SelectionOptions selection_of(const TrainOptions& options) {
   if (options.states) selection.learning.states = *options.states;
   if (!options.history.empty()) {
     selection.learning.history.clear();
-    // Ascending, each once, whatever order they were said in.
+    // Ascending, each once, in whatever order the option lists them.
     for (const double milliseconds : std::set(options.history.begin(), options.history.end()))
       selection.learning.history.push_back(milliseconds / 1000);
   }
@@ -66,7 +66,8 @@ WalkOptions walk_options_of(const TrainOptions& options, const RoleTable& roles)
   return walk_options;
 }
 
-// Now, or the moment that a build which is to be repeated says it is
+// The present moment, or the one that SOURCE_DATE_EPOCH sets, so that a model can be made again to
+// the byte
 // (reproducible-builds.org/specs/source-date-epoch).
 std::string date_of_training() {
   std::time_t now = std::time(nullptr);
@@ -152,18 +153,19 @@ void add_options(CLI::App& app, TrainOptions& options) {
   add_value(app, "--regularisation", "K", options.regularisation,
             "How firmly covariances are held, in frames (by cross-validation)")
       ->check(within(0.01, 1e6));
-  add_value(app, "--placement", "DEG", options.placement,
-            "How far a live performer's sensors may sit or be calibrated off, in degrees")
+  add_value(
+      app, "--placement", "DEG", options.placement,
+      "Error to expect of a live performer's sensors, in placing or calibrating them, in degrees")
       ->check(within(0, 30));
   add_value(app, "--rounds", "N", options.rounds, "Rounds of Baum-Welch (by cross-validation)")
       ->check(CLI::Range(0, 100));
-  add_decoder(app, options.decoder, "How the model decodes unless told otherwise (viterbi)");
+  add_decoder(app, options.decoder, "How the model decodes by default (viterbi)");
   add_value(app, "--threads", "N", options.threads,
             "Threads to learn with; the model is the same for any number (all processors)")
       ->check(CLI::Range(1, 256));
   add_value(app, "--comment", "TEXT", options.comment, "A sentence to keep in the model");
   app.add_flag("--synthetic", options.synthetic,
-               "Keep in the model that nobody walked these walks");
+               "Mark the model as learnt from walks that were computed, not captured");
   add_json_flag(app, options.json);
   app.footer(std::string(label_help) + R"(
 

@@ -1,4 +1,4 @@
-// gait walk: a walk at any speed, on legs of any length, out of nothing.
+// gait walk: writes a walk at any speed, on legs of any length, without an input clip.
 #include <memory>
 #include <optional>
 #include <string>
@@ -64,10 +64,11 @@ void add_options(CLI::App& app, WalkOptionsSaid& options) {
             "Thigh and shank in metres (the subject's own)")
       ->check(within(0.01, 100));
   add_value(app, "--subject", "NAME", options.subject, "Whose walk (the mean of all)");
-  add_choice(app, "--law", {"fitted", "inman", "feet"}, options.law,
-             "Cadence: feet (neither speed nor feet lie), fitted (as the subject's), inman");
+  add_choice(
+      app, "--law", {"fitted", "inman", "feet"}, options.law,
+      "Cadence: feet (steps carry the body at the speed), fitted (the subject's law), inman");
   add_walk_output(app, options.walk);
-  app.footer(R"(Speeds from 0 to 10 km/h are walked; others are clamped to that, with a word.
+  app.footer(R"(Speeds from 0 to 10 km/h are walked; others are clamped to that, with a warning.
 
 Examples:
   gait walk speeds.gait --speed 1.4 --seconds 10 -o walk.bvh

@@ -1,5 +1,6 @@
 // For the leak sanitizer only: Fontconfig, which Cairo asks for a font, keeps a few hundred bytes
-// of patterns until the process ends and has no way to be told by us. Leaks of our own still count.
+// of patterns until the process ends and offers no call that frees them. Leaks of our own still
+// count.
 #if defined(__has_feature)
 #if __has_feature(address_sanitizer)
 #define GAIT_LEAKS_ARE_WATCHED

@@ -1,4 +1,5 @@
-// Progress of long work: one line on stderr that overwrites itself, only where somebody watches.
+// Progress of long work: one line on stderr that overwrites itself. Silent unless stderr is a
+// terminal.
 #pragma once
 
 #include <cstdio>
@@ -8,7 +9,7 @@ namespace gait::tool {
 
 class Progress {
  public:
-  // `what`: "gait render: drawing the film". Silent when stderr is not a terminal.
+  // `what`: "gait render: drawing the film".
   explicit Progress(std::string what);
   ~Progress();  // wipes the line
   Progress(const Progress&) = delete;

@@ -44,7 +44,7 @@ struct Chart {
   double panel_width = 620, panel_height = 300;  // pixels, of the field within the axes
 };
 
-// Colours, strokes and marks for lines that are told apart: 0, 1, 2, ...
+// The colour, stroke and mark of line 0, 1, 2, ..., each line unlike the ones before.
 Colour line_colour(std::size_t line);
 Stroke line_stroke(std::size_t line);
 Marker line_marker(std::size_t line);

@@ -32,7 +32,7 @@ struct Row {
   std::vector<Cell> cells;
 };
 
-// The last frame of a right contact: phase begins anew there. Who stands has none.
+// The last frame of a right contact, where phase begins anew; frame 0 for a walker that stands.
 int contact_frame(const SpeedWalk& walk) {
   for (int frame = static_cast<int>(walk.phase.size()) - 1; frame > 0; --frame) {
     const auto at = static_cast<std::size_t>(frame);

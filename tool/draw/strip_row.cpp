@@ -81,7 +81,7 @@ std::vector<int> along_the_way(const WalkView& view, int strobe) {
   if (way < shortest_travel || way > longest_travel || turns_back) return {};
   const Frames part = walking_part(view.travel);
   std::vector<int> frames = evenly(part, strobe > 0 ? strobe : figures_for(view, part));
-  // Whoever stops on the way would stand there several times over.
+  // The figures of a walker that stops on the way would stand on one spot, one over the other.
   const double mean = way / static_cast<double>(std::max<std::size_t>(1, frames.size() - 1));
   for (std::size_t i = 1; i < frames.size(); ++i)
     if (std::abs(view.travel[frames[i]] - view.travel[frames[i - 1]]) / view.height <

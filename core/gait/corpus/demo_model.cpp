@@ -12,7 +12,7 @@ namespace {
 constexpr double regularisation = 10;
 constexpr int rounds = 0;
 // Sensors sit a degree or two off, and so is a performer's calibration pose. The synthetic walks
-// come from one body without such errors: the model is told to expect them.
+// come from one body without such errors: the option makes the model expect them.
 constexpr double placement = 0.02;  // radians
 
 }  // namespace

@@ -1,5 +1,5 @@
 // The demonstration model `gait-demo`: learnt from the built-in corpus, so that the project walks
-// without anybody's data. It is synthetic and says so.
+// without captured data. It is synthetic and says so.
 #pragma once
 
 #include <string>

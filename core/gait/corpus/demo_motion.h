@@ -1,4 +1,4 @@
-// Built-in walks to play: what a clip player has without anybody's files.
+// Built-in walks to play, for clip players without a file.
 #pragma once
 
 #include <string>

@@ -22,7 +22,7 @@ double log_loss(const StyleScores& scores, double temper) {
 double best_temper(const StyleScores& scores, double otherwise) {
   if (scores.truth.empty()) return otherwise;
   // The loss is convex in the temper: golden section on a logarithmic scale finds its minimum. At
-  // most 1, the evidence of one frame: few held-out clips told apart without a miss are no ground
+  // most 1, the evidence of one frame: few held-out clips recognised without a miss are no ground
   // for more.
   constexpr double golden = 0.6180339887498949;
   double low = std::log(1e-4), high = 0;

@@ -1,4 +1,4 @@
-// How much each of a model's streams moved in training, for whoever wants to know what it goes by.
+// How much each of a model's streams moved in training: what the model can recognise and map by.
 #pragma once
 
 #include <string>

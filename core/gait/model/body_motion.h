@@ -1,4 +1,4 @@
-// A walk told by a model's body: what a clip player plays, and a recording becomes.
+// A walk as rotations of a model's joints: clip players play it, recordings become one.
 //
 // Units: metres, seconds, radians; Y up.
 #pragma once

@@ -44,7 +44,6 @@ void expect_texts(const std::vector<std::string>& texts, const std::string& fiel
   for (std::size_t i = 0; i < texts.size(); ++i) expect_text(texts[i], item(field, i));
 }
 
-// Names by which one is told from another.
 void expect_names(const std::vector<std::string>& names, const std::string& field) {
   expect_texts(names, field);
   std::set<std::string> seen;

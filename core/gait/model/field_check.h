@@ -20,7 +20,7 @@ void expect_number(double value, const std::string& field);
 void expect_seconds(double value, const std::string& field);
 void expect_text(const std::string& text, const std::string& field);  // UTF-8
 void expect_texts(const std::vector<std::string>& texts, const std::string& field);
-// Names by which one is told from another: neither empty nor twice.
+// Distinct names: none empty, none twice.
 void expect_names(const std::vector<std::string>& names, const std::string& field);
 void expect_values(const Eigen::Ref<const Eigen::MatrixXd>& values, Eigen::Index rows,
                    Eigen::Index columns, const std::string& field);

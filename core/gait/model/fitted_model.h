@@ -1,4 +1,5 @@
-// A model on the bones of whoever is reconstructed: rotations are learnt, lengths are the wearer's.
+// A model with the bone lengths of the performer it reconstructs: it has learnt rotations, which
+// hold for bones of any length.
 #pragma once
 
 #include <memory>

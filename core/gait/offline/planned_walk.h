@@ -1,4 +1,5 @@
-// Whole walks by plan: a walker is told what to do when, and what it walks becomes a clip.
+// Walks by plan: a plan sets speed, style or direction over time, a walker follows it, and its
+// frames become a clip.
 //
 // Units: metres, seconds, radians; speeds in m/s.
 #pragma once

@@ -9,8 +9,8 @@
 
 namespace gait {
 
-// Whoever walks in a style is not somebody at another speed: walks over speed are those without a
-// style, or in one called neutral, normal or standing.
+// A walk in a style differs in more than speed. Walks over speed are those without a style, or in
+// one called neutral, normal or standing.
 std::vector<Walk> walks_over_speed(const std::vector<Walk>& walks);
 
 // Gives a model of a body its speed spaces. Where no subject walked at speeds that differ by a
