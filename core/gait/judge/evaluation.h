@@ -63,9 +63,8 @@ struct Evaluation {
   std::vector<double> frame_microseconds;  // one per frame of all clips, ascending
   int delay_frames = 0;
 
-  Means error(Estimate estimate,
-              const std::string& style = {}) const;         // angle of the counted streams;
-                                                            // of one style if named
+  // Angle to the truth, mean over the counted streams; of the clips in one style if it is named.
+  Means error(Estimate estimate, const std::string& style = {}) const;
   Means stream_error(Estimate estimate, int stream) const;  // angle
   Means step_accuracy() const;                              // share of frames
   Means style_accuracy() const;              // share of frames of the clips with a known style
