@@ -11,7 +11,7 @@
 #include "bench_model.h"
 #include "gait/play/recognise/state_tables.h"
 #include "gait/play/recognise/triangular.h"
-#include "gait/play/reconstructor.h"
+#include "gait/play/stream_reconstructor.h"
 #include "gait/play/synthesise/trajectory.h"
 
 namespace gait::bench {
@@ -46,10 +46,10 @@ class FrameTimes {
 // Observe, decode, recognise the style, map, synthesise, move the root.
 void whole_frame(benchmark::State& state, int states, DecoderKind decoder) {
   const auto model = bench_model(states);
-  PlayerSettings settings;
+  PlaySettings settings;
   settings.decoder = decoder;
   settings.past = past;
-  Reconstructor reconstructor(model, settings);
+  StreamReconstructor reconstructor(model, settings);
   const auto inputs = bench_inputs(*model, 300);
   FrameTimes times;
   std::size_t frame = 0;

@@ -20,7 +20,7 @@ namespace {
 struct EvaluateOptions {
   std::string model;
   WalkReading reading;
-  PlayerSettings settings;
+  PlaySettings settings;
   bool json = false;
 };
 

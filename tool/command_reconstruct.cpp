@@ -20,7 +20,7 @@ namespace {
 struct ReconstructOptions {
   std::string model, clip, output, table;
   std::string root = "feet";
-  PlayerSettings settings;
+  PlaySettings settings;
   ClipReading reading;
   bool calibrate = false;
 };

@@ -28,7 +28,7 @@ void add_decoder(CLI::App& command, std::optional<DecoderKind>& decoder, const s
       ->type_name("viterbi|forward|lag");
 }
 
-void add_play_options(CLI::App& app, PlayerSettings& settings) {
+void add_play_options(CLI::App& app, PlaySettings& settings) {
   add_decoder(app, settings.decoder, "How steps are decoded (the model's own)");
   add_value(app, "--lag", "S", settings.lag,
             "Seconds by which --decoder lag decides late (the model's own)")

@@ -6,7 +6,7 @@
 #include <optional>
 #include <string>
 
-#include "gait/play/player.h"
+#include "gait/play/stream_reconstructor.h"
 
 namespace gait::tool {
 
@@ -14,6 +14,6 @@ namespace gait::tool {
 void add_decoder(CLI::App& app, std::optional<DecoderKind>& decoder, const std::string& help);
 
 // Adds --decoder, --lag, --temper, --strength, --past, --current and --future.
-void add_play_options(CLI::App& app, PlayerSettings& settings);
+void add_play_options(CLI::App& app, PlaySettings& settings);
 
 }  // namespace gait::tool

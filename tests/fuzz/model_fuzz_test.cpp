@@ -12,7 +12,7 @@
 #include "gait/model/model_file.h"
 #include "gait/play/cycles/speed_walker.h"
 #include "gait/play/cycles/style_walker.h"
-#include "gait/play/reconstructor.h"
+#include "gait/play/stream_reconstructor.h"
 #include "gait/play/synthesise/step_walker.h"
 #include "gait/teach/walk_model.h"
 #include "gait/teach/walks_over_speed.h"
@@ -114,7 +114,7 @@ int play(const std::shared_ptr<const Model>& model) {
     }
   };
   if_it_can([&] {
-    Reconstructor reconstructor(model);
+    StreamReconstructor reconstructor(model);
     std::vector<Eigen::Quaternionf> pose(model->inputs.size(), Eigen::Quaternionf::Identity());
     for (int i = 0; i < 40; ++i) {
       reconstructor.push(i / 30.0, pose);

@@ -81,7 +81,7 @@ TEST(Evaluation, counts_styles_that_the_model_knows) {
 
 TEST(Evaluation, errors_are_those_of_a_sequence_played_by_hand) {
   const auto model = few_walks_model();
-  PlayerSettings settings;
+  PlaySettings settings;
   settings.decoder = DecoderKind::viterbi;
   const CorpusWalk walk = make_walk(plan_of("sad", 9));
   const Evaluation one = evaluate(model, {walk_of(walk)}, settings);
@@ -114,7 +114,7 @@ TEST(Evaluation, skips_clips_without_steps_and_says_so) {
 }
 
 TEST(Evaluation, delays_count) {
-  PlayerSettings settings;
+  PlaySettings settings;
   settings.future = 4;
   EXPECT_EQ(evaluate(few_walks_model(), {unseen_walks()[0]}, settings).delay_frames, 4);
 }

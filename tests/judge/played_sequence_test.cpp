@@ -19,7 +19,7 @@ TEST(PlayedSequence, has_every_frame_and_the_truth_beside_it) {
   const CorpusWalk walk = make_walk(plan_of("sad", 9));
   const Sequence sequence = streams_of(walk, *model->body);
   for (const int future : {0, 4}) {
-    PlayerSettings settings;
+    PlaySettings settings;
     settings.future = future;
     const PlayedSequence played = play_sequence(model, settings, sequence);
     EXPECT_EQ(played.outputs.cols(), sequence.inputs.cols());
@@ -45,7 +45,7 @@ TEST(PlayedSequence, with_delay_is_realigned) {
   const auto model = few_walks_model();
   const Sequence sequence = streams_of(make_walk(plan_of("proud", 9)), *model->body);
   const auto error = [&](int future, int shift) {
-    PlayerSettings settings;
+    PlaySettings settings;
     settings.future = future;
     const PlayedSequence played = play_sequence(model, settings, sequence);
     return (played.outputs.middleCols(30, 60) - sequence.outputs.middleCols(30 + shift, 60)).norm();
@@ -59,7 +59,7 @@ TEST(PlayedSequence, with_delay_is_realigned) {
 TEST(PlayedSequence, of_many_lengths_down_to_none_is_as_long) {
   const auto model = few_walks_model();
   const Sequence whole = streams_of(make_walk(plan_of("sad", 9)), *model->body);
-  PlayerSettings settings;
+  PlaySettings settings;
   settings.decoder = DecoderKind::lag;
   settings.lag = 0.2;
   settings.future = 3;

@@ -81,7 +81,7 @@ TEST(ReconstructedClip, with_delays_is_as_long_and_in_time) {
   const auto model = few_walks_model();
   const CorpusWalk walk = make_walk(plan_of("sad", 9));
   const BodyPoses poses = poses_of(walk.clip, *model->body);
-  PlayerSettings settings;
+  PlaySettings settings;
   settings.decoder = DecoderKind::lag;
   settings.lag = 0.2;
   settings.future = 3;

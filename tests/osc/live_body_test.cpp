@@ -12,7 +12,7 @@
 #include "gait/motion/kinematics.h"
 #include "gait/osc/humanoid_sender.h"
 #include "gait/osc/rig_sender.h"
-#include "gait/play/reconstructor.h"
+#include "gait/play/stream_reconstructor.h"
 #include "osc/captured.h"
 #include "osc/strange_sender.h"
 
@@ -38,10 +38,10 @@ struct Decided {
 Decided decide(const std::vector<std::vector<float>>& inputs) {
   Decided decided;
   decided.inputs = inputs;
-  Player player(demo(), {});
+  StreamReconstructor reconstructor(demo());
   for (const auto& values : inputs) {
-    player.advance(values);
-    for (int i = 0; i < player.available(); ++i) decided.label.push_back(player.decision(i).label);
+    if (reconstructor.advance(values))
+      decided.label.push_back(reconstructor.frame().decision.label);
   }
   return decided;
 }

@@ -97,11 +97,11 @@ TEST(Chain, sends_what_reconstruct_writes) {
 // What the core gives of these inputs, one output frame each.
 std::vector<std::vector<float>> outputs_of(const Eigen::MatrixXf& inputs) {
   std::vector<std::vector<float>> outputs;
-  Player player(demo());
+  StreamReconstructor reconstructor(demo());
   for (int frame = 0; frame < inputs.cols(); ++frame) {
-    player.advance({inputs.col(frame).data(), static_cast<std::size_t>(inputs.rows())});
-    for (int i = 0; i < player.available(); ++i)
-      outputs.emplace_back(player.output(i).begin(), player.output(i).end());
+    if (reconstructor.advance({inputs.col(frame).data(), static_cast<std::size_t>(inputs.rows())}))
+      outputs.emplace_back(reconstructor.frame().outputs.begin(),
+                           reconstructor.frame().outputs.end());
   }
   return outputs;
 }

@@ -7,7 +7,7 @@
 #include <memory>
 #include <thread>
 
-#include "gait/play/reconstructor.h"
+#include "gait/play/stream_reconstructor.h"
 #include "play/few_walks.h"
 #include "play/forbidden_memory.h"
 
@@ -45,7 +45,7 @@ struct Counted {
   float sum = 0;  // so that nothing is left out because nobody looks
 };
 
-void play(Reconstructor& reconstructor, double start, int begin, int end, Counted& counted) {
+void play(StreamReconstructor& reconstructor, double start, int begin, int end, Counted& counted) {
   for (int i = begin; i < end; ++i) {
     reconstructor.push(start + i / 30.0, walked()[i]);
     while (reconstructor.next()) {
@@ -93,19 +93,19 @@ TEST(NoAllocation, whole_frames_of_every_decoder_take_no_memory) {
   walked();
   for (const DecoderKind kind : {DecoderKind::viterbi, DecoderKind::forward, DecoderKind::lag})
     for (const int future : {0, 3}) {
-      PlayerSettings settings;
+      PlaySettings settings;
       settings.decoder = kind;
       settings.future = future;
       settings.current = future > 0 ? 2 : 1;
-      Reconstructor reconstructor(few_walks_model(), settings);
+      StreamReconstructor reconstructor(few_walks_model(), settings);
       Counted counted;
       long allocations = 0, releases = 0;
       {
         const ForbiddenToEigen eigen;
         const ForbiddenMemory forbidden;
         play(reconstructor, 0, 0, 80, counted);
-        reconstructor.player().set_strength(1.3f);
-        reconstructor.player().set_strength(2, 0.5f);
+        reconstructor.map().set_strength(1.3f);
+        reconstructor.map().set_strength(2, 0.5f);
         play(reconstructor, 0, 80, 100, counted);
         while (reconstructor.flush()) ++counted.frames;
         reconstructor.reset({1, 0, 2});
@@ -130,9 +130,9 @@ TEST(NoAllocation, joints_that_go_missing_and_come_back_take_no_memory_of_the_pl
     GTEST_SKIP() << "a sanitizer has malloc, and the worker may use Eigen's";
   walked();
   for (const DecoderKind kind : {DecoderKind::viterbi, DecoderKind::forward, DecoderKind::lag}) {
-    PlayerSettings settings;
+    PlaySettings settings;
     settings.decoder = kind;
-    Reconstructor reconstructor(few_walks_model(), settings);
+    StreamReconstructor reconstructor(few_walks_model(), settings);
     Counted counted;
     long allocations = 0, releases = 0;
     {

@@ -6,7 +6,7 @@
 #include <span>
 #include <vector>
 
-#include "gait/play/player.h"
+#include "gait/play/stream_reconstructor.h"
 #include "play/few_walks.h"
 
 namespace gait::testing {
@@ -16,12 +16,10 @@ struct Played {
   std::vector<Decision> decisions;
   std::vector<std::vector<float>> styles;
 
-  void collect(const Player& player) {
-    for (int i = 0; i < player.available(); ++i) {
-      outputs.emplace_back(player.output(i).begin(), player.output(i).end());
-      decisions.push_back(player.decision(i));
-      styles.emplace_back(player.styles(i).begin(), player.styles(i).end());
-    }
+  void collect(const ReconstructedFrame& frame) {
+    outputs.emplace_back(frame.outputs.begin(), frame.outputs.end());
+    decisions.push_back(frame.decision);
+    styles.emplace_back(frame.styles.begin(), frame.styles.end());
   }
 };
 
@@ -29,13 +27,11 @@ inline std::span<const float> frame_of(const Eigen::MatrixXf& inputs, int frame)
   return {inputs.col(frame).data(), static_cast<std::size_t>(inputs.rows())};
 }
 
-inline Played play_through(Player& player, const Eigen::MatrixXf& inputs) {
+inline Played play_through(StreamReconstructor& reconstructor, const Eigen::MatrixXf& inputs) {
   Played played;
-  for (int frame = 0; frame < inputs.cols(); ++frame) {
-    player.advance(frame_of(inputs, frame));
-    played.collect(player);
-  }
-  while (player.flush()) played.collect(player);
+  for (int frame = 0; frame < inputs.cols(); ++frame)
+    if (reconstructor.advance(frame_of(inputs, frame))) played.collect(reconstructor.frame());
+  while (reconstructor.flush()) played.collect(reconstructor.frame());
   return played;
 }
 

@@ -146,7 +146,7 @@ TEST(Takes, teach_parameters_by_demonstration_better_than_the_nearest_frame_or_a
     sequence.segments = {{10, static_cast<int>(held.inputs.cols()) - 1, 0}};
     const PlayedSequence played = play_sequence(model, {}, sequence);
     // Without past frames there is no trajectory: each state's regression alone.
-    PlayerSettings no_trajectory;
+    PlaySettings no_trajectory;
     no_trajectory.past = 0;
     const PlayedSequence by_state = play_sequence(model, no_trajectory, sequence);
     Eigen::MatrixXd by_frame(2, held.inputs.cols());

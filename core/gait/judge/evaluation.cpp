@@ -45,7 +45,7 @@ double mean_jerk(const Eigen::MatrixXd& outputs, int frame, const std::vector<bo
 
 class Evaluator {
  public:
-  Evaluator(std::shared_ptr<const Model> model, const PlayerSettings& settings,
+  Evaluator(std::shared_ptr<const Model> model, const PlaySettings& settings,
             const RoleTable& roles)
       : model_(std::move(model)), settings_(settings), role_table_(roles), played_(model_) {
     if (!model_->body)
@@ -97,7 +97,7 @@ class Evaluator {
 
  private:
   PlayedSequence play(const Sequence& truth, std::optional<double> strength, bool smooth) const {
-    PlayerSettings settings = settings_;
+    PlaySettings settings = settings_;
     if (strength) settings.strength = strength;
     if (!smooth) settings.past = 0, settings.future = 0, settings.current = 1;
     return play_sequence(played_, settings, truth);
@@ -185,7 +185,7 @@ class Evaluator {
   }
 
   std::shared_ptr<const Model> model_;
-  PlayerSettings settings_;
+  PlaySettings settings_;
   RoleTable role_table_;
   PlayModel played_;
   Evaluation evaluation_;
@@ -195,7 +195,7 @@ class Evaluator {
 }  // namespace
 
 Evaluation evaluate(std::shared_ptr<const Model> model, const std::vector<Walk>& walks,
-                    const PlayerSettings& settings, const RoleTable& roles,
+                    const PlaySettings& settings, const RoleTable& roles,
                     const std::function<void(double)>& progress) {
   Evaluator evaluator(std::move(model), settings, roles);
   for (std::size_t i = 0; i < walks.size(); ++i) {

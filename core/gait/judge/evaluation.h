@@ -11,7 +11,7 @@
 #include <vector>
 
 #include "gait/learn/walk_sequences.h"
-#include "gait/play/player.h"
+#include "gait/play/stream_reconstructor.h"
 
 namespace gait {
 
@@ -79,7 +79,7 @@ struct Evaluation {
 // so. `progress` is called before each walk with the share done; what it throws ends the work.
 // Throws Error when a walk lacks the model's joints or when nothing is left.
 Evaluation evaluate(std::shared_ptr<const Model> model, const std::vector<Walk>& walks,
-                    const PlayerSettings& settings, const RoleTable& roles = {},
+                    const PlaySettings& settings, const RoleTable& roles = {},
                     const std::function<void(double)>& progress = {});
 
 }  // namespace gait

@@ -4,7 +4,7 @@
 
 namespace gait {
 
-PlayedSequence play_sequence(const PlayModel& played_model, const PlayerSettings& settings,
+PlayedSequence play_sequence(const PlayModel& played_model, const PlaySettings& settings,
                              const Sequence& sequence) {
   const Model& model = *played_model.model;
   const int frames = static_cast<int>(sequence.inputs.cols());
@@ -20,25 +20,24 @@ PlayedSequence play_sequence(const PlayModel& played_model, const PlayerSettings
     played.end = sequence.segments.back().end;
   }
 
-  Player player(played_model, settings);
+  PlaySettings streams = settings;
+  streams.on_stage = false;
+  StreamReconstructor reconstructor(played_model, streams);
   const Eigen::MatrixXf inputs = sequence.inputs.cast<float>();
   const auto collect = [&] {
-    for (int i = 0; i < player.available(); ++i) {
-      const auto frame = static_cast<Eigen::Index>(played.decisions.size());
-      const auto values = player.output(i);
-      played.outputs.col(frame) =
-          Eigen::Map<const Eigen::VectorXf>(values.data(), played.outputs.rows()).cast<double>();
-      const auto styles = player.styles(i);
-      played.style_posteriors.col(frame) =
-          Eigen::Map<const Eigen::VectorXf>(styles.data(), played.style_posteriors.rows());
-      played.decisions.push_back(player.decision(i));
-    }
+    const ReconstructedFrame& made = reconstructor.frame();
+    const auto frame = static_cast<Eigen::Index>(played.decisions.size());
+    played.outputs.col(frame) =
+        Eigen::Map<const Eigen::VectorXf>(made.outputs.data(), played.outputs.rows())
+            .cast<double>();
+    played.style_posteriors.col(frame) =
+        Eigen::Map<const Eigen::VectorXf>(made.styles.data(), played.style_posteriors.rows());
+    played.decisions.push_back(made.decision);
   };
-  for (int frame = 0; frame < frames; ++frame) {
-    player.advance({inputs.col(frame).data(), static_cast<std::size_t>(inputs.rows())});
-    collect();
-  }
-  while (player.flush()) collect();
+  for (int frame = 0; frame < frames; ++frame)
+    if (reconstructor.advance({inputs.col(frame).data(), static_cast<std::size_t>(inputs.rows())}))
+      collect();
+  while (reconstructor.flush()) collect();
   return played;
 }
 

@@ -5,7 +5,7 @@
 #include <vector>
 
 #include "gait/learn/sequence.h"
-#include "gait/play/player.h"
+#include "gait/play/stream_reconstructor.h"
 
 namespace gait {
 
@@ -17,7 +17,7 @@ struct PlayedSequence {
   std::vector<int> true_label;       // per frame, -1 outside the segments
 };
 
-PlayedSequence play_sequence(const PlayModel& played_model, const PlayerSettings& settings,
+PlayedSequence play_sequence(const PlayModel& played_model, const PlaySettings& settings,
                              const Sequence& sequence);
 
 // Distance of two output vectors per stream at one frame: the geodesic angle (radians) for

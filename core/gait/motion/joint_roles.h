@@ -65,8 +65,8 @@ struct JointRoles {
   std::vector<int> hips_and_legs() const;
 };
 
-// From hip to ankle along the bones of the left leg, whatever joints a rig has in between: the length
-// that speeds and strides are measured in. In the skeleton's unit; 0 without that leg.
+// From hip to ankle along the bones of the left leg, whatever joints a rig has in between: the
+// length that speeds and strides are measured in. In the skeleton's unit; 0 without that leg.
 double leg_length(const Skeleton& skeleton, const JointRoles& roles);
 
 // A table that overrides what names suggest: joint name -> role.

@@ -32,10 +32,10 @@ struct Made {
   }
 };
 
-Made stream(std::shared_ptr<const Model> model, const BodyPoses& poses, double frame_rate,
-            const PlayerSettings& settings, ReconstructedClip& result) {
+Made stream(const std::shared_ptr<const Model>& model, const BodyPoses& poses, double frame_rate,
+            const PlaySettings& settings, ReconstructedClip& result) {
   const Body& body = *model->body;
-  Reconstructor reconstructor(model, settings);
+  StreamReconstructor reconstructor(model, settings);
   result.delay_frames = reconstructor.delay();
   Made made;
   std::vector<Eigen::Quaternionf> inputs(body.input_joints.size());
@@ -63,7 +63,7 @@ Made stream(std::shared_ptr<const Model> model, const BodyPoses& poses, double f
 
 ReconstructedClip reconstruct_clip(std::shared_ptr<const Model> model, const BodyPoses& poses,
                                    double frame_rate, const std::string& name,
-                                   const PlayerSettings& settings) {
+                                   const PlaySettings& settings) {
   if (!model->body)
     throw Error("model " + model->name + ": expected a model of a body; its streams are plain");
   ReconstructedClip result;

@@ -1,5 +1,5 @@
-// A whole clip reconstructed as if it had been streamed: its input joints alone go through the
-// Reconstructor at the clip's own rate, delays are realigned and flushed.
+// A whole clip reconstructed as if it had been streamed: its input joints alone go through a
+// StreamReconstructor at the clip's own rate, delays are realigned and flushed.
 #pragma once
 
 #include <memory>
@@ -7,7 +7,7 @@
 
 #include "gait/model/body_pose.h"
 #include "gait/motion/clip.h"
-#include "gait/play/reconstructor.h"
+#include "gait/play/stream_reconstructor.h"
 
 namespace gait {
 
@@ -25,6 +25,6 @@ struct ReconstructedClip {
 // `poses`: of the clip's frames, in the model's body (body_poses); only input joints are looked at.
 ReconstructedClip reconstruct_clip(std::shared_ptr<const Model> model, const BodyPoses& poses,
                                    double frame_rate, const std::string& name,
-                                   const PlayerSettings& settings);
+                                   const PlaySettings& settings);
 
 }  // namespace gait

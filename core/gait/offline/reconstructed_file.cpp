@@ -47,7 +47,7 @@ class FileReconstruction {
     find_frame(said);
   }
 
-  ReconstructedFile run(const PlayerSettings& settings) {
+  ReconstructedFile run(const PlaySettings& settings) {
     const Clip seen = in_metres_y_up(inputs_alone(), frame_);
     const auto fitted = fitted_model(*model_, seen.skeleton, matched_);
     const BodyPoses poses = body_poses(seen, body_, matched_, body_.heading_window);
@@ -252,7 +252,7 @@ class FileReconstruction {
 }  // namespace
 
 ReconstructedFile reconstruct_file(std::shared_ptr<const Model> model, const BvhFile& file,
-                                   const BodyFrameOverride& said, const PlayerSettings& settings,
+                                   const BodyFrameOverride& said, const PlaySettings& settings,
                                    FileRoot root, bool calibrate) {
   if (file.values.rows() == 0)
     throw Error(file.name + ": expected frames to reconstruct, found none");

@@ -33,7 +33,7 @@ struct ReconstructedFile {
 // are among the outputs or the inputs. Throws Error naming the joints that the file lacks, whose
 // rest directions differ from the model's, or whose channels cannot take a rotation.
 ReconstructedFile reconstruct_file(std::shared_ptr<const Model> model, const BvhFile& file,
-                                   const BodyFrameOverride& said, const PlayerSettings& settings,
+                                   const BodyFrameOverride& said, const PlaySettings& settings,
                                    FileRoot root, bool calibrate = false);
 
 }  // namespace gait

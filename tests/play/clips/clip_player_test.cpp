@@ -9,7 +9,7 @@
 #include "gait/corpus/demo_motion.h"
 #include "gait/error.h"
 #include "gait/files/bvh.h"
-#include "gait/play/reconstructor.h"
+#include "gait/play/stream_reconstructor.h"
 #include "play/few_walks.h"
 #include "play/forbidden_memory.h"
 
@@ -62,7 +62,7 @@ std::vector<std::vector<float>> fed_by_reconstruct(const Clip& clip,
       body_poses(clip, body, match_joints(body, clip.skeleton, clip.name), body.heading_window);
   std::vector<Eigen::Quaternionf> references;
   for (const auto& reference : body.references) references.push_back(reference.cast<float>());
-  Reconstructor reconstructor(model);
+  StreamReconstructor reconstructor(model);
   std::vector<std::vector<float>> fed;
   for (int frame = 0; frame < poses.frames(); ++frame) {
     std::vector<Eigen::Quaternionf> inputs;

@@ -8,7 +8,7 @@
 
 #include "gait/model/body_pose.h"
 #include "gait/play/recognise/live_recogniser.h"
-#include "gait/play/reconstructor.h"
+#include "gait/play/stream_reconstructor.h"
 #include "play/few_walks.h"
 #include "play/played_stream.h"
 #include "play/random_model.h"
@@ -38,7 +38,7 @@ TEST(InputStream, leads_to_the_decisions_of_a_reconstruction_at_any_rate) {
   const auto model = few_walks_model();
   for (const double rate : {30.0, 50.0, 60.0, 120.0}) {
     const InputPoses poses = input_poses(make_walk(plan_of("drunk", 9), rate).clip, *model->body);
-    Reconstructor reconstructor(model);
+    StreamReconstructor reconstructor(model);
     LiveRecogniser live(model);
     int frames = 0;
     for (std::size_t i = 0; i < poses.size(); ++i) {

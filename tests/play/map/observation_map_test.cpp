@@ -8,7 +8,7 @@
 #include <thread>
 
 #include "gait/play/map/observation_message.h"
-#include "gait/play/player.h"
+#include "gait/play/stream_reconstructor.h"
 #include "play/few_walks.h"
 #include "play/forbidden_memory.h"
 #include "play/played_stream.h"
@@ -39,22 +39,22 @@ void map_from(ObservationMap& map, const ObservationMessage& message) {
   map.map(message.states(), message.missing(), message.observation());
 }
 
-TEST(ObservationMap, what_a_recogniser_sends_it_becomes_what_a_player_plays) {
+TEST(ObservationMap, what_a_recogniser_sends_it_becomes_what_a_reconstructor_plays) {
   const auto model = few_walks_model();
   const Eigen::MatrixXf inputs = held_out_inputs("in-a-hurry");
   for (const DecoderKind kind : {DecoderKind::viterbi, DecoderKind::forward, DecoderKind::lag}) {
-    PlayerSettings settings;
+    PlaySettings settings;
     settings.decoder = kind;
     settings.past = 20;
     settings.future = 0;
-    Player player(model, settings);
+    StreamReconstructor reconstructor(model, settings);
     Recogniser recogniser(model, settings);
     ObservationMessage sent(*model), received(*model);
     ObservationMap map(model);
     Trajectory trajectory(model->output.statics(), 20, 1, 0);
     int compared = 0;
     for (int frame = 0; frame < inputs.cols(); ++frame) {
-      player.advance(frame_of(inputs, frame));
+      const bool made = reconstructor.advance(frame_of(inputs, frame));
       if (!recogniser.advance(frame_of(inputs, frame))) continue;
       ASSERT_EQ(received.read(sent.write(recogniser)), nullptr);
       EXPECT_EQ(received.lag(), recogniser.lag());
@@ -62,9 +62,9 @@ TEST(ObservationMap, what_a_recogniser_sends_it_becomes_what_a_player_plays) {
       EXPECT_FLOAT_EQ(map.distance(), recogniser.decision().distance);
       trajectory.push(modelled_of(map, *model));
       const Eigen::MatrixXf statics = trajectory.generate();
-      ASSERT_EQ(player.available(), 1);
+      ASSERT_TRUE(made);
       for (int i = 0; i < model->output.statics(); ++i)
-        EXPECT_NEAR(statics(i, 0), player.output(0)[model->output.modelled[i]], 1e-6)
+        EXPECT_NEAR(statics(i, 0), reconstructor.frame().outputs[model->output.modelled[i]], 1e-6)
             << "frame " << frame;
       ++compared;
     }

@@ -1,4 +1,4 @@
-// Joints that go missing while a player runs, and come back.
+// Joints that go missing while a reconstructor runs, and come back.
 #include <gtest/gtest.h>
 
 #include <algorithm>
@@ -8,7 +8,7 @@
 #include <random>
 #include <thread>
 
-#include "gait/play/player.h"
+#include "gait/play/stream_reconstructor.h"
 #include "play/few_walks.h"
 #include "play/played_stream.h"
 
@@ -21,8 +21,8 @@ using testing::held_out_inputs;
 using testing::largest_difference;
 
 // Lets the worker run while there are tables to make.
-void pause(const Player& player) {
-  if (!player.settled()) std::this_thread::sleep_for(std::chrono::milliseconds(20));
+void pause(const StreamReconstructor& reconstructor) {
+  if (!reconstructor.settled()) std::this_thread::sleep_for(std::chrono::milliseconds(20));
 }
 
 TEST(MissingInputs, joints_go_missing_in_mid_walk_and_come_back) {
@@ -32,35 +32,36 @@ TEST(MissingInputs, joints_go_missing_in_mid_walk_and_come_back) {
   inputs << one_walk, one_walk, one_walk;
   const int lost = 60, back = 110;
   for (const DecoderKind kind : {DecoderKind::viterbi, DecoderKind::forward}) {
-    PlayerSettings settings;
+    PlaySettings settings;
     settings.decoder = kind;
-    Player whole(model, settings), losing(model, settings);
+    StreamReconstructor whole(model, settings), losing(model, settings);
     int disagreements = 0, later_disagreements = 0;
     float largest_later = 0;
     for (int frame = 0; frame < inputs.cols(); ++frame) {
       Eigen::VectorXf given = inputs.col(frame);
       if (frame == lost || frame == back)
-        for (int value = 0; value < 9; ++value) losing.set_missing(value, frame == lost);
+        for (int stream = 0; stream < 3; ++stream) losing.set_missing(stream, frame == lost);
       // What a lost sensor sends is not looked at.
       if (frame >= lost && frame < back)
         given.head(9).setConstant(std::numeric_limits<float>::quiet_NaN());
       whole.advance(frame_of(inputs, frame));
-      losing.advance({given.data(), static_cast<std::size_t>(given.size())});
+      ASSERT_TRUE(losing.advance({given.data(), static_cast<std::size_t>(given.size())}));
       pause(losing);
-      ASSERT_EQ(losing.available(), 1);
-      for (const float value : losing.output(0)) ASSERT_TRUE(std::isfinite(value));
-      for (const float value : losing.styles(0)) ASSERT_TRUE(std::isfinite(value));
-      const bool disagree = whole.latest().label != losing.latest().label;
+      for (const float value : losing.frame().outputs) ASSERT_TRUE(std::isfinite(value));
+      for (const float value : losing.frame().styles) ASSERT_TRUE(std::isfinite(value));
+      const bool disagree =
+          whole.recogniser().decision().label != losing.recogniser().decision().label;
       if (frame < lost) {
         EXPECT_FALSE(disagree);
-        EXPECT_TRUE(std::ranges::equal(whole.output(0), losing.output(0)));
+        EXPECT_TRUE(std::ranges::equal(whole.frame().outputs, losing.frame().outputs));
       } else if (frame < back + 15) {
         disagreements += disagree;
       } else if (frame > back + 80) {  // tables, history, paths and queue are whole again
-        later_disagreements += disagree || whole.latest().state != losing.latest().state;
-        for (std::size_t i = 0; i < whole.output(0).size(); ++i)
-          largest_later =
-              std::max(largest_later, std::abs(whole.output(0)[i] - losing.output(0)[i]));
+        later_disagreements +=
+            disagree || whole.recogniser().decision().state != losing.recogniser().decision().state;
+        for (std::size_t i = 0; i < whole.frame().outputs.size(); ++i)
+          largest_later = std::max(largest_later,
+                                   std::abs(whole.frame().outputs[i] - losing.frame().outputs[i]));
       }
     }
     EXPECT_LT(disagreements, 0.25 * (back + 15 - lost)) << "the rest knows the step too";
@@ -72,9 +73,10 @@ TEST(MissingInputs, joints_go_missing_in_mid_walk_and_come_back) {
 TEST(MissingInputs, what_a_lost_joint_sends_changes_nothing) {
   const auto model = few_walks_model();
   const Eigen::MatrixXf inputs = held_out_inputs();
-  Player a(model), b(model);
+  StreamReconstructor a(model), b(model);
   // Missing from the first frame on, so that both have the same tables for the same frames.
-  for (int value = 0; value < 6; ++value) a.set_missing(value, true), b.set_missing(value, true);
+  for (int stream = 0; stream < 2; ++stream)
+    a.set_missing(stream, true), b.set_missing(stream, true);
   std::mt19937 random(1);
   std::normal_distribution<float> noise(0, 10);
   EXPECT_TRUE(a.settled());
@@ -89,22 +91,22 @@ TEST(MissingInputs, what_a_lost_joint_sends_changes_nothing) {
     pause(a), pause(b);
     if (frame < 80) continue;
     EXPECT_TRUE(a.settled());
-    EXPECT_EQ(a.latest().state, b.latest().state);
-    EXPECT_LT(largest_difference(a.output(0), b.output(0)), 1e-4f);
+    EXPECT_EQ(a.recogniser().decision().state, b.recogniser().decision().state);
+    EXPECT_LT(largest_difference(a.frame().outputs, b.frame().outputs), 1e-4f);
   }
 }
 
 TEST(MissingInputs, loses_everything_and_lives) {
   const auto model = few_walks_model();
   const Eigen::MatrixXf inputs = held_out_inputs();
-  Player player(model);
-  const int values = model->input.values;
+  StreamReconstructor reconstructor(model);
   for (int frame = 0; frame < inputs.cols(); ++frame) {
     if (frame == 30 || frame == 60)
-      for (int value = 0; value < values; ++value) player.set_missing(value, frame == 30);
-    player.advance(frame_of(inputs, frame));
-    pause(player);
-    for (const float value : player.output(0)) ASSERT_TRUE(std::isfinite(value));
+      for (std::size_t stream = 0; stream < model->inputs.size(); ++stream)
+        reconstructor.set_missing(static_cast<int>(stream), frame == 30);
+    reconstructor.advance(frame_of(inputs, frame));
+    pause(reconstructor);
+    for (const float value : reconstructor.frame().outputs) ASSERT_TRUE(std::isfinite(value));
   }
 }
 
@@ -112,22 +114,26 @@ TEST(MissingInputs, a_frame_that_is_no_measurement_does_not_stay) {
   const auto model = few_walks_model();
   const Eigen::MatrixXf inputs = held_out_inputs();
   for (const DecoderKind kind : {DecoderKind::viterbi, DecoderKind::forward, DecoderKind::lag}) {
-    PlayerSettings settings;
+    PlaySettings settings;
     settings.decoder = kind;
-    Player player(model, settings), undisturbed(model, settings);
+    StreamReconstructor reconstructor(model, settings), undisturbed(model, settings);
     for (int frame = 0; frame < inputs.cols(); ++frame) {
       Eigen::VectorXf given = inputs.col(frame);
       if (frame == 50) given[0] = std::numeric_limits<float>::quiet_NaN();
       if (frame == 51) given[4] = std::numeric_limits<float>::infinity();
       if (frame == 52) given[7] = 1e30f;
       if (frame == 53) given.setConstant(-std::numeric_limits<float>::max());
-      player.advance({given.data(), static_cast<std::size_t>(given.size())});
+      const bool made =
+          reconstructor.advance({given.data(), static_cast<std::size_t>(given.size())});
       undisturbed.advance(frame_of(inputs, frame));
-      if (player.available() == 0) continue;
-      for (const float value : player.output(0)) ASSERT_TRUE(std::isfinite(value)) << frame;
+      if (!made) continue;
+      for (const float value : reconstructor.frame().outputs)
+        ASSERT_TRUE(std::isfinite(value)) << frame;
       if (frame < 90) continue;
-      EXPECT_EQ(player.latest().state, undisturbed.latest().state);
-      EXPECT_LT(largest_difference(player.output(0), undisturbed.output(0)), 1e-3f);
+      EXPECT_EQ(reconstructor.recogniser().decision().state,
+                undisturbed.recogniser().decision().state);
+      EXPECT_LT(largest_difference(reconstructor.frame().outputs, undisturbed.frame().outputs),
+                1e-3f);
     }
   }
 }

@@ -6,7 +6,7 @@
 #include <cmath>
 #include <thread>
 
-#include "gait/play/player.h"
+#include "gait/play/stream_reconstructor.h"
 #include "play/few_walks.h"
 #include "play/played_stream.h"
 

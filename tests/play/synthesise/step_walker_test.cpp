@@ -253,7 +253,8 @@ TEST(StepWalker, a_change_of_style_takes_about_a_step_and_never_jumps) {
 }
 
 TEST(StepWalker, a_model_read_from_its_file_walks_the_same_to_the_bit) {
-  const auto read = std::make_shared<const Model>(parse_model(model_bytes(*corpus_walks().model), "m"));
+  const auto read =
+      std::make_shared<const Model>(parse_model(model_bytes(*corpus_walks().model), "m"));
   StepWalker walker = corpus_walker(), again(read);
   walker.set_style(2), again.set_style(2);
   expect_same_frames(walker, again, 200);

@@ -9,7 +9,7 @@
 #include "gait/judge/foot_slide.h"
 #include "gait/motion/contacts.h"
 #include "gait/motion/kinematics.h"
-#include "gait/play/player.h"
+#include "gait/play/stream_reconstructor.h"
 #include "gait/play/synthesise/step_walker.h"
 #include "play/body/bends.h"
 #include "play/body/sole_height.h"
@@ -42,7 +42,7 @@ StepsWalked walk_in_style(const StyledWalks& walks, int style) {
   StepWalker walker(walks.model);
   EXPECT_TRUE(walker.set_style(style));
   WalkRecorder recorder(*model.body, model.frame_rate);
-  Player player(walks.model);
+  StreamReconstructor reconstructor(walks.model);
   Eigen::VectorXf posteriors = Eigen::VectorXf::Zero(walker.weights().size());
   int begun = 0;
   for (int frame = 0; frame < frames; ++frame) {
@@ -57,10 +57,9 @@ StepsWalked walk_in_style(const StyledWalks& walks, int style) {
       ++begun;
       posteriors.setZero();
     }
-    player.advance(walker.inputs());
-    for (int i = 0; i < player.available(); ++i)
-      for (std::size_t s = 0; s < player.styles(i).size(); ++s)
-        posteriors[static_cast<Eigen::Index>(s)] += player.styles(i)[s];
+    if (!reconstructor.advance(walker.inputs())) continue;
+    for (std::size_t s = 0; s < reconstructor.frame().styles.size(); ++s)
+      posteriors[static_cast<Eigen::Index>(s)] += reconstructor.frame().styles[s];
   }
   walked.clip = recorder.clip("walked");
   for (int frame = 0; frame < frames; ++frame) {

@@ -46,14 +46,14 @@ void keep(const Synthesiser& synthesiser, Frames& frames) {
 }
 
 testing::Played played(int past, int future) {
-  PlayerSettings settings;
+  PlaySettings settings;
   settings.decoder = DecoderKind::forward;
   settings.past = past, settings.future = future;
-  Player player(few_walks_model(), settings);
-  return testing::play_through(player, held_out_inputs("sad"));
+  StreamReconstructor reconstructor(few_walks_model(), settings);
+  return testing::play_through(reconstructor, held_out_inputs("sad"));
 }
 
-TEST(Synthesiser, fed_with_a_players_gaussians_gives_the_players_outputs) {
+TEST(Synthesiser, fed_with_a_walks_gaussians_gives_the_outputs_of_its_reconstruction) {
   for (const auto& [past, future] : {std::pair(20, 0), {8, 3}, {0, 0}, {3, 7}}) {
     const testing::Played expected = played(past, future);
     Synthesiser synthesiser(few_walks_model(), {past, future});
@@ -105,11 +105,11 @@ TEST(Synthesiser, keeps_told_means_of_values_that_do_not_move_in_time_with_the_o
   const auto model = model_without_last_output();
   const auto last = static_cast<std::size_t>(model->output.values - 1);
   std::vector<Told> walk = told_gaussians(model, held_out_inputs("sad"));
-  PlayerSettings settings;
+  PlaySettings settings;
   settings.decoder = DecoderKind::forward;
   settings.past = 20, settings.future = 2;
-  Player player(model, settings);
-  const testing::Played expected = testing::play_through(player, held_out_inputs("sad"));
+  StreamReconstructor reconstructor(model, settings);
+  const testing::Played expected = testing::play_through(reconstructor, held_out_inputs("sad"));
   Synthesiser synthesiser(model, {20, 2});
   for (std::size_t i = 0; i < walk.size(); ++i) {
     EXPECT_EQ(walk[i].variances[last], 0);

@@ -1,5 +1,5 @@
 // What a recogniser and a mapping tell a synthesiser about a walk, frame by frame, made from the
-// same parts as the player, without it.
+// same parts as a reconstructor's, without it.
 #pragma once
 
 #include <vector>
@@ -26,10 +26,9 @@ inline std::vector<Told> told_gaussians(const std::shared_ptr<const Model>& mode
   Decoder decoder(tables, DecoderKind::forward, 0, static_cast<float>(model->play.temper),
                   model->frame_rate);
   CovarianceMap map(*model, tables);
-  PlayerSettings settings;
+  RecogniserSettings settings;
   settings.decoder = DecoderKind::forward;
-  settings.future = 0;
-  Player player(model, settings);
+  Recogniser recogniser(model, settings);
   std::vector<Told> told;
   const std::size_t values = static_cast<std::size_t>(model->output.values);
   const std::size_t modelled = model->output.modelled.size();
@@ -50,10 +49,10 @@ inline std::vector<Told> told_gaussians(const std::shared_ptr<const Model>& mode
         of.means[to] = gaussian.mean[from];
         of.variances[to] = gaussian.variance[from];
       }
-    player.advance(frame_of(inputs, frame));
-    of.phase = player.latest().phase;
-    of.cadence = player.latest().cadence;
-    of.styles.assign(player.latest_styles().begin(), player.latest_styles().end());
+    recogniser.advance(frame_of(inputs, frame));
+    of.phase = recogniser.decision().phase;
+    of.cadence = recogniser.decision().cadence;
+    of.styles.assign(recogniser.styles().begin(), recogniser.styles().end());
     told.push_back(std::move(of));
   }
   return told;

@@ -90,6 +90,12 @@ bool BodyStage::set_heading_rate(float radians_per_second) noexcept {
   return true;
 }
 
+bool BodyStage::set_heading(float radians) noexcept {
+  if (!std::isfinite(radians)) return false;
+  heading_ = radians;
+  return true;
+}
+
 bool BodyStage::set_place(const Eigen::Vector3f& place) noexcept {
   if (!place.allFinite()) return false;
   place_ = place;
@@ -113,30 +119,37 @@ std::span<const float> BodyStage::pose() const noexcept {
 }
 
 void BodyStage::reset() noexcept {
-  assembly_.reset();
+  begin_anew();
   roots_.reset();
+  heading_ = 0;
+  path_.setZero();
+}
+
+void BodyStage::begin_anew() noexcept {
+  assembly_.reset();
   filter_.reset();
   motion_.reset();
   foot_lock_.reset();
+  lock_awake_ = false;
   meter_.reset();
   started_ = false;
   gentle_ = 0;
-  heading_ = 0;
-  path_.setZero();
   feet_ = {};
 }
 
 void BodyStage::make() noexcept {
   roots_.mark();
+  wake_foot_lock();
   values_ = assembly_.values();
   pose_from<float>(pose(), references_, pose_);
   if (filter_.on()) {
     filter_.apply(pose_);
     pose_vector<float>(pose_, references_, {values_.data(), 3 * pose_.size()});
   }
-  meter_.advance(pose_);
+  if (watched_) meter_.advance(pose_);
   move();
   hold_feet();
+  if (!watched_) return;
   watch_feet();
   place_joints();
 }
@@ -169,12 +182,24 @@ void BodyStage::move() noexcept {
   }
 }
 
-// Who does not walk is not held: nothing says where such feet are to be.
+// The lock compares each frame with the one before: before the first that it holds, it is shown the
+// last one that it did not.
+void BodyStage::wake_foot_lock() noexcept {
+  if (lock_awake_ || !may_lock() || !assembly_.whole()) return;
+  lock_awake_ = true;
+  if (started_) foot_lock_.apply(pose_, motion_, heading_, 0);
+}
+
+// A body that does not walk is not held: nothing says where such feet are to be.
 void BodyStage::hold_feet() noexcept {
+  if (!lock_awake_) return;
   foot_lock_.apply(pose_, motion_, heading_, may_lock() && assembly_.whole() ? going_.value() : 0);
-  if (!foot_lock_.corrected()) return;
-  for (const std::size_t joint : leg_joints_)
-    values_from<float>(pose_[joint], references_[joint], values_.data() + 3 * joint);
+  if (foot_lock_.corrected())
+    for (const std::size_t joint : leg_joints_)
+      values_from<float>(pose_[joint], references_[joint], values_.data() + 3 * joint);
+  if (may_lock() && assembly_.whole()) return;
+  lock_awake_ = motion_.sunk() || !foot_lock_.idle();
+  if (!lock_awake_) foot_lock_.reset();
 }
 
 void BodyStage::watch_feet() noexcept {
@@ -232,7 +257,7 @@ bool BodyStage::take_over(const BodyStage& other) noexcept {
   path_ = other.path_ * (other.scale_ / scale_);
   if (!same_bones(other)) return true;
   started_ = other.started_;
-  motion_ = other.motion_, foot_lock_ = other.foot_lock_;
+  motion_ = other.motion_, foot_lock_ = other.foot_lock_, lock_awake_ = other.lock_awake_;
   walked_ = other.walked_, gentle_ = other.gentle_;
   return true;
 }

@@ -63,13 +63,17 @@ class BodyStage {
   void set_walking(bool walking) noexcept { going_.set(walking ? 1.0f : 0.0f); }
   void set_root(RootFrom from) noexcept { from_ = from; }
   void set_lock(bool lock) noexcept { lock_ = lock; }  // feet that stand; at first it is set
+  // Whether to find what can be seen: positions, speeds, energy, touches. At first it is set.
+  void set_watched(bool watched) noexcept { watched_ = watched; }
   bool set_heading_rate(float radians_per_second) noexcept;
+  bool set_heading(float radians) noexcept;  // from the next frame on, as it was measured
   bool set_place(const Eigen::Vector3f& place) noexcept;  // where its path began, on the ground
   bool set_smooth(float hertz) noexcept;                  // 1-euro filter at rest; 0: off
   bool set_leg_length(float metres) noexcept;             // thigh and shank; 0: the model's
 
   // Of the last frame.
   std::span<const float> pose() const noexcept;  // 3 per joint of the body
+  std::span<const Eigen::Quaternionf> rotations() const noexcept { return pose_; }
   const RootPlace& root() const noexcept { return root_; }
   // Where it is in the world: 3 per joint, then 3 per tip (hands, soles, the top of the head: where
   // bones end without a joint), joint by joint.
@@ -85,6 +89,8 @@ class BodyStage {
   const std::vector<std::array<int, 2>>& bones() const noexcept { return bones_; }
   const Model& model() const noexcept { return *model_; }
   void reset() noexcept;  // anew from its place; settings stay
+  // What comes next belongs to another motion, but the body stays where it is.
+  void begin_anew() noexcept;
   // Goes on where another one is, with its settings. False, with nothing changed, when the bodies
   // have not as many joints, inputs and outputs.
   bool take_over(const BodyStage& other) noexcept;
@@ -101,6 +107,7 @@ class BodyStage {
   bool same_bones(const BodyStage& other) const noexcept;
   void make() noexcept;
   bool may_lock() const noexcept { return lock_ && from_ == RootFrom::feet; }
+  void wake_foot_lock() noexcept;
   void move() noexcept;
   void hold_feet() noexcept;
   void watch_feet() noexcept;
@@ -129,8 +136,9 @@ class BodyStage {
   MotionMeter meter_;
 
   RootFrom from_ = RootFrom::feet;
-  bool lock_ = true;
-  Glide going_{1};  // 1 walks, 0 does not
+  bool lock_ = true, watched_ = true;
+  bool lock_awake_ = false;  // it has something to hold, to lift or to let fade
+  Glide going_{1};           // 1 walks, 0 does not
   float heading_rate_ = 0, scale_ = 1;
   Eigen::Vector3f place_ = Eigen::Vector3f::Zero();
   bool started_ = false;

@@ -26,6 +26,7 @@ constexpr float deepest = 0.007f;           // m that a foot sinks into the grou
 constexpr float limp = 0.04f;               // rad: a knee nearer to straight is bent gently
 constexpr float quick = 6.0f;               // rad/s: any knee may be turned so fast
 constexpr float nothing = 1e-5f;            // m: a correction has faded
+constexpr float same_bend = 1e-5f;          // rad: less is rounding
 constexpr float out_of_line = 0.1f;         // rad: less bent, a knee's axis is that of the hips too
 
 // 1 up to where the range begins, 0 from its end on.
@@ -80,6 +81,13 @@ void FootLock::reset() noexcept {
     leg.hold = leg.lift = 0;
     leg.known = leg.corrected = false;
   }
+}
+
+bool FootLock::idle() const noexcept {
+  return std::ranges::all_of(legs_, [](const LegChain& leg) {
+    return leg.correction.isZero(0) && leg.change.isZero(0) &&
+           std::abs(leg.shown_bend - leg.own_bend) <= same_bend;
+  });
 }
 
 bool FootLock::usable(std::span<const Eigen::Quaternionf> pose) const noexcept {
@@ -187,7 +195,7 @@ void FootLock::reach(LegChain& leg, std::span<Eigen::Quaternionf> pose,
   }
   leg.own_bend = bend, leg.shown_bend = shown;
   leg.known = true;
-  leg.corrected = !correction.isZero(0) || std::abs(shown - bend) > 1e-5f;
+  leg.corrected = !correction.isZero(0) || std::abs(shown - bend) > same_bend;
   if (!leg.corrected) return;
 
   const Eigen::Quaternionf at_knee(Eigen::AngleAxisf(shown - bend, axis));

@@ -51,6 +51,8 @@ class FootLock {
   const Eigen::Vector3f& correction(Foot foot) const noexcept {
     return legs_[index(foot)].correction;
   }
+  // Whether nothing is left of corrections: a pose that is neither held nor lifted stays as it is.
+  bool idle() const noexcept;
   // Whether the last pose was changed at all.
   bool corrected() const noexcept { return legs_[0].corrected || legs_[1].corrected; }
   // How much a foot is held, 0 to 1.

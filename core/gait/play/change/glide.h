@@ -21,6 +21,7 @@ class Glide {
     if (std::abs(target_ - middle_) < near && std::abs(target_ - value_) < near) arrive();
   }
 
+  bool arrived() const noexcept { return value_ == target_ && middle_ == target_; }
   float value() const noexcept { return value_; }
   float target() const noexcept { return target_; }
 

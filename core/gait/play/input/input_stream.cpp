@@ -22,11 +22,17 @@ InputStream::InputStream(std::shared_ptr<const Model> model, double longest_gap)
       clock_(model_->frame_rate, layout_.values(StreamKind::rotation) / 3,
              layout_.values(StreamKind::plain), longest_gap),
       missing_(model_->inputs.size(), false),
-      collected_(model_->input.values, 0.0f),
+      collected_{std::vector<Eigen::Quaternionf>(layout_.values(StreamKind::rotation) / 3,
+                                                 Eigen::Quaternionf::Identity()),
+                 std::vector<float>(layout_.values(StreamKind::plain), 0.0f)},
       usable_(collected_),
-      resampled_(collected_),
-      rotations_(layout_.values(StreamKind::rotation) / 3, Eigen::Quaternionf::Identity()),
-      plain_(layout_.values(StreamKind::plain), 0.0f) {
+      due_(collected_),
+      resampled_(model_->input.values, 0.0f) {
+  int rotation = 0, plain = 0;
+  for (const StreamPlace& stream : layout_) {
+    index_.push_back(stream.turns() ? rotation++ : plain);
+    if (!stream.turns()) plain += stream.size;
+  }
   if (model_->body) {
     references_ = float_references(*model_->body);
     heading_.emplace(*model_->body, model_->frame_rate);
@@ -39,29 +45,35 @@ void InputStream::reset() noexcept {
   if (heading_) heading_->reset();
 }
 
+void InputStream::collect(int stream, const float* values) noexcept {
+  if (layout_[stream].turns())
+    collected_.rotations[index_[stream]] =
+        exponential_map<float>(Eigen::Vector3f(values[0], values[1], values[2]));
+  else
+    std::copy_n(values, layout_[stream].size, collected_.plain.begin() + index_[stream]);
+}
+
 FrameClock::Arrival InputStream::push(double time, std::span<const float> values) noexcept {
-  if (values.size() != usable_.size()) return FrameClock::Arrival::rejected;
+  if (values.size() != resampled_.size()) return FrameClock::Arrival::rejected;
   hips_world_ = false;
-  std::copy(values.begin(), values.end(), collected_.begin());
-  return take(time);
+  for (int stream = 0; stream < streams(); ++stream)
+    collect(stream, &values[layout_[stream].begin]);
+  return push_collected(time);
 }
 
 FrameClock::Arrival InputStream::push_body(double time, std::span<const float> pose) noexcept {
   if (!model_->body || pose.size() != 3 * model_->body->references.size())
     return FrameClock::Arrival::rejected;
   hips_world_ = false;
-  for (const StreamPlace& place : layout_)
-    if (place.turns())
-      std::copy_n(pose.begin() + 3 * place.joint, 3, collected_.begin() + place.begin);
-  return take(time);
+  for (int stream = 0; stream < streams(); ++stream)
+    if (layout_[stream].turns()) collect(stream, &pose[3 * layout_[stream].joint]);
+  return push_collected(time);
 }
-
-FrameClock::Arrival InputStream::push_collected(double time) noexcept { return take(time); }
 
 bool InputStream::set_values(int stream, std::span<const float> values) noexcept {
   if (!layout_.fits(stream, values)) return false;
   if (stream == hips_) hips_world_ = false;
-  std::copy(values.begin(), values.end(), collected_.begin() + first_value(stream));
+  collect(stream, values.data());
   return true;
 }
 
@@ -69,9 +81,10 @@ bool InputStream::set_rotation(int stream, const Eigen::Quaternionf& rotation) n
   if (!layout_.has(stream) || layout_[stream].joint < 0) return false;
   const float length = rotation.norm();
   if (!std::isfinite(length) || length < 1e-6f) return false;
-  const StreamPlace& place = layout_[stream];
-  values_from<float>(rotation.normalized(), references_[place.joint],
-                     collected_.data() + place.begin);
+  // What is of length 1 but for rounding keeps its last digits.
+  const bool unit = std::abs(length - 1) < 1e-6f;
+  collected_.rotations[index_[stream]] =
+      references_[layout_[stream].joint].conjugate() * (unit ? rotation : rotation.normalized());
   if (stream == hips_) hips_world_ = true;
   return true;
 }
@@ -82,44 +95,49 @@ bool InputStream::set_euler(int stream, std::string_view order,
   return rotation && set_rotation(stream, *rotation);
 }
 
-FrameClock::Arrival InputStream::take(double time) noexcept {
+FrameClock::Arrival InputStream::push_collected(double time) noexcept {
   // Before anything is held: a stream that goes missing later would keep what is not a number.
-  for (int stream = 0; stream < streams(); ++stream)
-    if (!missing_[stream] && !layout_.fits(stream, layout_.of(stream, collected_)))
-      return FrameClock::Arrival::rejected;
-  std::size_t rotation = 0, plain = 0;
   for (int stream = 0; stream < streams(); ++stream) {
-    const auto [begin, size, kind, joint] = layout_[stream];
-    if (!missing_[stream]) std::copy_n(collected_.begin() + begin, size, usable_.begin() + begin);
-    if (kind == StreamKind::rotation)
-      rotations_[rotation++] = exponential_map<float>(
-          Eigen::Vector3f(usable_[begin], usable_[begin + 1], usable_[begin + 2]));
-    else
-      for (int i = 0; i < size; ++i) plain_[plain++] = usable_[begin + i];
+    if (missing_[stream]) continue;
+    const bool finite =
+        layout_[stream].turns()
+            ? collected_.rotations[index_[stream]].coeffs().allFinite()
+            : all_finite(std::span(collected_.plain).subspan(index_[stream], layout_[stream].size));
+    if (!finite) return FrameClock::Arrival::rejected;
   }
-  const FrameClock::Arrival arrival = clock_.push(time, rotations_, plain_);
+  for (int stream = 0; stream < streams(); ++stream) {
+    if (missing_[stream]) continue;
+    const int index = index_[stream];
+    if (layout_[stream].turns())
+      usable_.rotations[index] = collected_.rotations[index];
+    else
+      std::copy_n(collected_.plain.begin() + index, layout_[stream].size,
+                  usable_.plain.begin() + index);
+  }
+  const FrameClock::Arrival arrival = clock_.push(time, usable_.rotations, usable_.plain);
   if (arrival != FrameClock::Arrival::rejected) pushed_ = time;
   return arrival;
 }
 
 bool InputStream::next() noexcept {
-  if (!clock_.next(rotations_, plain_)) return false;
+  if (!clock_.next(due_.rotations, due_.plain)) return false;
   if (clock_.first_of_run() && heading_) heading_->reset();
-  std::size_t rotation = 0, plain = 0;
+  heading_out_.reset();
   for (int stream = 0; stream < streams(); ++stream) {
-    const auto [begin, size, kind, joint] = layout_[stream];
-    if (kind == StreamKind::plain) {
-      for (int i = 0; i < size; ++i) resampled_[begin + i] = plain_[plain++];
+    float* const values = &resampled_[layout_[stream].begin];
+    if (!layout_[stream].turns()) {
+      std::copy_n(due_.plain.begin() + index_[stream], layout_[stream].size, values);
       continue;
     }
-    Eigen::Quaternionf relative = rotations_[rotation++];
+    Eigen::Quaternionf relative = due_.rotations[index_[stream]];
     if (stream == hips_ && hips_world_) {
-      const Eigen::Quaternionf& reference = references_[joint];
+      const Eigen::Quaternionf& reference = references_[layout_[stream].joint];
       const Eigen::Quaternionf hips = reference * relative;
-      relative = reference.conjugate() * about_vertical(-heading_->advance(hips)) * hips;
+      heading_out_ = heading_->advance(hips);
+      relative = reference.conjugate() * about_vertical(-*heading_out_) * hips;
     }
     const Eigen::Vector3f value = rotation_vector<float>(relative);
-    std::copy_n(value.data(), 3, resampled_.begin() + begin);
+    std::copy_n(value.data(), 3, values);
   }
   return true;
 }

@@ -52,6 +52,9 @@ class InputStream {
   // Makes the next frame that is due and says true; false when none is.
   bool next() noexcept;
   std::span<const float> values() const noexcept { return resampled_; }
+  // The heading that was taken out of that frame's hips (radians); none unless they came turned in
+  // the world.
+  std::optional<float> heading() const noexcept { return heading_out_; }
   double time() const noexcept { return clock_.time(); }
   // That frame is the first after a start or a jump of time: none before it belongs to its motion.
   bool first_of_run() const noexcept { return clock_.first_of_run(); }
@@ -63,19 +66,25 @@ class InputStream {
   void reset() noexcept;
 
  private:
-  FrameClock::Arrival take(double time) noexcept;
+  struct Frame {
+    std::vector<Eigen::Quaternionf> rotations;  // relative to the references, stream by stream
+    std::vector<float> plain;
+  };
+
+  void collect(int stream, const float* values) noexcept;
 
   std::shared_ptr<const Model> model_;
   StreamLayout layout_;
+  std::vector<int> index_;  // of a stream's rotation, or of its first plain value, in a Frame
   std::vector<Eigen::Quaternionf> references_;  // per joint of the body
   FrameClock clock_;
   std::optional<HipsHeading> heading_;
   int hips_ = -1;            // stream of the hips, -1: not measured
   bool hips_world_ = false;  // they come with their heading
   std::vector<bool> missing_;
-  std::vector<float> collected_, usable_, resampled_;
-  std::vector<Eigen::Quaternionf> rotations_;  // relative to the references
-  std::vector<float> plain_;
+  Frame collected_, usable_, due_;
+  std::vector<float> resampled_;
+  std::optional<float> heading_out_;
   double pushed_ = 0;
 };
 

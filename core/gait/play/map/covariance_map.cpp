@@ -28,8 +28,23 @@ const OutputGaussian& CovarianceMap::map(std::span<const WeightedState> states,
                                          const Eigen::Ref<const Eigen::VectorXf>& x,
                                          int known) noexcept {
   const int depth = tables_->depth_of(known, layout_);
-  const int count = tables_->depths[depth];
   whitening_.take(*tables_, x);
+  return mix(states, depth, [&](int state) {
+    return whitening_.innovation(tables_->states[state], tables_->depths[depth]);
+  });
+}
+
+const OutputGaussian& CovarianceMap::map(const Recogniser& decided) noexcept {
+  tables_ = decided.tables();
+  if (!decided.whitened()) return map(decided.states(), decided.scaled(), decided.known());
+  return mix(decided.states(), tables_->depth_of(decided.known(), layout_),
+             [&](int state) { return decided.innovation(state); });
+}
+
+template <class InnovationOf>
+const OutputGaussian& CovarianceMap::mix(std::span<const WeightedState> states, int depth,
+                                         InnovationOf innovation_of) noexcept {
+  const int count = tables_->depths[depth];
   mean_.setZero();
   squares_.setZero();
   variance_.setZero();
@@ -37,7 +52,7 @@ const OutputGaussian& CovarianceMap::map(std::span<const WeightedState> states,
   const Eigen::Index statics = strength_.size();
   for (const WeightedState& weighted : states) {
     const PlayedState& state = tables_->states[weighted.state];
-    const auto innovation = whitening_.innovation(state, count);
+    const auto innovation = innovation_of(weighted.state);
     distance_ += weighted.weight * std::sqrt(innovation.squaredNorm() / static_cast<float>(count));
     shift_.noalias() = state.gain.leftCols(count) * innovation;
     for (int part = 0; part < 3; ++part) {

@@ -15,6 +15,7 @@
 #include "gait/play/output_gaussian.h"
 #include "gait/play/recognise/decoder.h"
 #include "gait/play/recognise/emissions.h"
+#include "gait/play/recognise/recogniser.h"
 
 namespace gait {
 
@@ -32,6 +33,9 @@ class CovarianceMap {
   const OutputGaussian& map(std::span<const WeightedState> states,
                             const Eigen::Ref<const Eigen::VectorXf>& x, int known) noexcept;
 
+  // The same of what a recogniser decided on last, by its tables.
+  const OutputGaussian& map(const Recogniser& decided) noexcept;
+
   // Mahalanobis distance of the last observation from its states' means, by the root of the number
   // of dimensions: about 1 for what was taught.
   float distance() const noexcept { return distance_; }
@@ -39,6 +43,10 @@ class CovarianceMap {
   void use(const std::shared_ptr<const StateTables>& tables) noexcept { tables_ = tables; }
 
  private:
+  template <class InnovationOf>
+  const OutputGaussian& mix(std::span<const WeightedState> states, int depth,
+                            InnovationOf innovation_of) noexcept;
+
   std::shared_ptr<const StateTables> tables_;
   InputLayout layout_;
   Whitening whitening_;

@@ -55,8 +55,13 @@ void ObservationMap::map(std::span<const WeightedState> states, std::span<const 
   const Eigen::Map<const Eigen::VectorXf> raw(observation.data(), known);
   scaled_.head(known) =
       (raw - scaling_mean_.head(known)).cwiseProduct(inverse_deviation_.head(known));
-  const OutputGaussian& gaussian = map_.map(states, scaled_, static_cast<int>(known));
+  scatter(map_.map(states, scaled_, static_cast<int>(known)));
+}
 
+void ObservationMap::map(const Recogniser& decided) noexcept { scatter(map_.map(decided)); }
+
+// Over all output values, those that the model moves where they lie.
+void ObservationMap::scatter(const OutputGaussian& gaussian) noexcept {
   const int values = model_->output.values, statics = model_->output.statics();
   std::fill(mean_.begin(), mean_.end(), 0.0f);
   std::fill(variance_.begin(), variance_.end(), 0.0f);

@@ -13,6 +13,7 @@
 #include "gait/model/stream_layout.h"
 #include "gait/play/map/covariance_map.h"
 #include "gait/play/play_model.h"
+#include "gait/play/recognise/recogniser.h"
 #include "gait/play/recognise/table_maker.h"
 
 namespace gait {
@@ -27,6 +28,10 @@ class ObservationMap {
   // Sizes as ObservationMessage checks them.
   void map(std::span<const WeightedState> states, std::span<const int> missing,
            std::span<const float> observation) noexcept;
+
+  // The same of what a recogniser of this very model decided on last, by its tables: no message
+  // lies between them, and no tables are awaited. A map takes one way or the other.
+  void map(const Recogniser& decided) noexcept;
 
   // 3 * model.output.values each: statics, first differences (per frame), second differences.
   // Values that are not modelled: their mean, no change, and variance 0.
@@ -55,6 +60,7 @@ class ObservationMap {
   const Model& model() const noexcept { return *model_; }
 
  private:
+  void scatter(const OutputGaussian& gaussian) noexcept;
   void keep_tables_current(std::span<const int> missing) noexcept;
 
   std::shared_ptr<const Model> model_;

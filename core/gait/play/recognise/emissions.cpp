@@ -22,10 +22,14 @@ void Whitening::take(const StateTables& tables,
 
 Eigen::Map<const Eigen::VectorXf> Whitening::innovation(const PlayedState& state,
                                                         int count) noexcept {
-  const Eigen::Index padded = state.input_mean.size();
-  difference_.head(padded) = kept_.head(padded) - state.input_mean;
-  multiply(state.whitener, difference_.data(), count, innovation_.data());
+  innovation(state, count, innovation_.data());
   return {innovation_.data(), count};
+}
+
+void Whitening::innovation(const PlayedState& state, int count, float* to) noexcept {
+  const Eigen::Index entries = state.input_mean.size();
+  difference_.head(entries) = kept_.head(entries) - state.input_mean;
+  multiply(state.whitener, difference_.data(), count, to);
 }
 
 Eigen::Map<const Eigen::VectorXf> Whitening::observation(int count) const noexcept {
@@ -37,8 +41,8 @@ Emissions::Emissions(std::shared_ptr<const StateTables> tables, const InputLayou
       layout_(layout),
       whitening_(layout.size()),
       log_likelihoods_(tables_->states.size()),
-      squared_distances_(
-          Eigen::VectorXf::Zero(static_cast<Eigen::Index>(log_likelihoods_.size()))) {}
+      squared_distances_(Eigen::VectorXf::Zero(static_cast<Eigen::Index>(log_likelihoods_.size()))),
+      innovations_(Eigen::MatrixXf::Zero(whitening_.padded(), squared_distances_.size())) {}
 
 std::span<const float> Emissions::of(const Eigen::Ref<const Eigen::VectorXf>& x,
                                      int known) noexcept {
@@ -47,8 +51,10 @@ std::span<const float> Emissions::of(const Eigen::Ref<const Eigen::VectorXf>& x,
   whitening_.take(*tables_, x);
   for (std::size_t state = 0; state < tables_->states.size(); ++state) {
     const PlayedState& played = tables_->states[state];
-    const float squared = whitening_.innovation(played, seen_).squaredNorm();
-    squared_distances_[static_cast<Eigen::Index>(state)] = squared;
+    const auto column = static_cast<Eigen::Index>(state);
+    whitening_.innovation(played, seen_, innovations_.col(column).data());
+    const float squared = innovations_.col(column).head(seen_).squaredNorm();
+    squared_distances_[column] = squared;
     log_likelihoods_[state] = played.log_constant[depth] - 0.5f * squared;
   }
   return log_likelihoods_;

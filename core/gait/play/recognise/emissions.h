@@ -18,6 +18,9 @@ class Whitening {
   void take(const StateTables& tables, const Eigen::Ref<const Eigen::VectorXf>& x) noexcept;
   // The leading `count` entries of the state's innovation; valid until the next call.
   Eigen::Map<const Eigen::VectorXf> innovation(const PlayedState& state, int count) noexcept;
+  // The same into `to`, which has room for padded() numbers.
+  void innovation(const PlayedState& state, int count, float* to) noexcept;
+  Eigen::Index padded() const noexcept { return kept_.size(); }
   // The kept entries of the observation taken.
   Eigen::Map<const Eigen::VectorXf> observation(int count) const noexcept;
 
@@ -37,6 +40,10 @@ class Emissions {
   // entries.
   const Eigen::VectorXf& squared_distances() const noexcept { return squared_distances_; }
   int seen() const noexcept { return seen_; }
+  // And its innovation in a state, of so many entries.
+  Eigen::Map<const Eigen::VectorXf> innovation(int state) const noexcept {
+    return {innovations_.col(state).data(), seen_};
+  }
 
   void use(const std::shared_ptr<const StateTables>& tables) noexcept { tables_ = tables; }
 
@@ -46,6 +53,7 @@ class Emissions {
   Whitening whitening_;
   std::vector<float> log_likelihoods_;
   Eigen::VectorXf squared_distances_;
+  Eigen::MatrixXf innovations_;  // a column per state
   int seen_ = 0;
 };
 

@@ -47,17 +47,31 @@ void LiveRecogniser::set_missing(int stream, bool missing) noexcept {
 bool LiveRecogniser::next() noexcept {
   while (stream_.next()) {
     if (stream_.first_of_run()) begin_anew();
-    recogniser_.set_walking(standing_.advance(stream_.values()));
-    if (!recogniser_.advance(stream_.values())) continue;
-    first_ = next_is_first_;
-    next_is_first_ = false;
-    choice_.advance(recogniser_.styles());
-    const float now = recogniser_.decision().distance;
-    if (first_) distance_ = now;
-    distance_ += forget_ * (now - distance_);
-    return true;
+    if (advance(stream_.values())) return true;
   }
   return false;
+}
+
+bool LiveRecogniser::advance(std::span<const float> values) noexcept {
+  recogniser_.set_walking(standing_.advance(values));
+  if (!recogniser_.advance(values)) return false;
+  note_decided();
+  return true;
+}
+
+bool LiveRecogniser::flush() noexcept {
+  if (!recogniser_.flush()) return false;
+  note_decided();
+  return true;
+}
+
+void LiveRecogniser::note_decided() noexcept {
+  first_ = next_is_first_;
+  next_is_first_ = false;
+  choice_.advance(recogniser_.styles());
+  const float now = recogniser_.decision().distance;
+  if (first_) distance_ = now;
+  distance_ += forget_ * (now - distance_);
 }
 
 }  // namespace gait

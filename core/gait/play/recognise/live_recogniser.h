@@ -34,6 +34,14 @@ class LiveRecogniser {
 
   // Decides on the next frame that is due. False when there is none.
   bool next() noexcept;
+  // Or takes frames at the model's rate, model.input.values values each, as Recogniser does: true
+  // when it decided on one.
+  bool advance(std::span<const float> values) noexcept;
+  // After the last frame, until reset: decides on what the decoder's lag still holds back, a frame
+  // a call. False when there is nothing more.
+  bool flush() noexcept;
+  // What comes next belongs to another motion.
+  void begin_anew() noexcept;
 
   // Of the decision made last.
   const Recogniser& recogniser() const noexcept { return recogniser_; }
@@ -64,7 +72,7 @@ class LiveRecogniser {
   void reset() noexcept;
 
  private:
-  void begin_anew() noexcept;
+  void note_decided() noexcept;
 
   InputStream stream_;
   Recogniser recogniser_;

@@ -68,6 +68,12 @@ class Recogniser {
   const Eigen::VectorXf& scaled() const noexcept { return held(decided_back_).scaled; }
   const Eigen::VectorXf& observation() const noexcept { return held(decided_back_).raw; }
   int known() const noexcept { return held(decided_back_).known; }
+  // Whether the emissions are still those of that observation, and then its innovation in a state:
+  // whitened once, it need not be for mapping.
+  bool whitened() const noexcept { return decided_back_ == 0; }
+  Eigen::Map<const Eigen::VectorXf> innovation(int state) const noexcept {
+    return emissions_.innovation(state);
+  }
   // The phase a clock should be told, and how late that is by the time of the last frame taken:
   // the estimate's age and the decoder's lag (seconds).
   const PhaseEstimate& phase_estimate() const noexcept { return estimate_; }

@@ -35,10 +35,13 @@ class StreamControls {
   struct Control {
     Glide scale{1}, fixed{0};
   };
+  void note_rest() noexcept;
 
   StreamLayout layout_;
   std::vector<Control> controls_;       // per stream
   std::vector<Glide> shifts_, places_;  // per value
+  bool at_rest_ = true;                 // every control has arrived
+  bool neutral_ = true;                 // and leaves the values as they are
 };
 
 }  // namespace gait

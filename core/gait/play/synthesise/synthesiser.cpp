@@ -14,6 +14,11 @@ namespace {
 // Deviations per value. Frames that follow each other stay under 1.1 in the built-in walks.
 constexpr float farthest_following = 1.2f;
 
+// Frames of a queue, as said or else the model's own.
+int frames_of(std::optional<int> said, double seconds, double frame_rate) {
+  return std::max(0, said.value_or(queue_frames(seconds, frame_rate)));
+}
+
 std::vector<int> pose_positions(const Model& model) {
   std::vector<int> positions;
   for (const StreamPlace& place : StreamLayout::of_all(model))
@@ -32,8 +37,9 @@ bool all_finite(std::span<const float> values) noexcept {
 
 Synthesiser::Synthesiser(const PlayModel& played, const SynthesiserSettings& settings)
     : model_(played.model),
-      walker_(played),
-      trajectory_(model_->output.statics(), 0, 1, 0),
+      trajectory_(*model_, frames_of(settings.past, model_->play.past, model_->frame_rate),
+                  settings.current,
+                  frames_of(settings.future, model_->play.future, model_->frame_rate)),
       controls_(StreamLayout::of_all(*model_)),
       hand_over_(StreamLayout::of_all(*model_), model_->frame_rate),
       period_(static_cast<float>(1 / model_->frame_rate)),
@@ -47,14 +53,11 @@ Synthesiser::Synthesiser(const PlayModel& played, const SynthesiserSettings& set
       pose_(model_->body ? static_cast<std::size_t>(3 * model_->body->skeleton.size())
                          : positions_.size(),
             0.0f) {
-  resize(settings.past.value_or(queue_frames(model_->play.past, model_->frame_rate)),
-         settings.future.value_or(queue_frames(model_->play.future, model_->frame_rate)));
+  if (settings.walks_alone) walker_.emplace(played);
   const LabelCycle cycle = label_cycles(*model_).front();
   labels_in_cycle_ = static_cast<float>(cycle.labels);
   cadence_ = cycle.cadence();
-  gaussian_ = {Eigen::VectorXf::Zero(model_->output.size()),
-               Eigen::VectorXf::Ones(model_->output.size())};
-  std::ranges::copy(walker_.inputs(), means_.data());
+  if (walker_) std::ranges::copy(walker_->inputs(), means_.data());
   means_.tail(model_->output.values) = model_->output_mean.cast<float>();
   shown_ = walked_ = fed_ = {means_, means_};
 }
@@ -65,8 +68,8 @@ void Synthesiser::Moving::take(const Eigen::VectorXf& values) noexcept {
 }
 
 void Synthesiser::reset() noexcept {
-  walker_.reset();
-  restart_fed();
+  if (walker_) walker_->reset();
+  trajectory_.reset();
   hand_over_.stop();
   alone_ = stood_ = jumps_ = false;
   walking_ = true;
@@ -76,36 +79,16 @@ void Synthesiser::reset() noexcept {
   std::ranges::fill(pose_, 0.0f);
 }
 
-void Synthesiser::restart_fed() noexcept {
-  trajectory_.reset();
-  flushed_ = 0;
+void Synthesiser::set_past(int frames) {
+  trajectory_.resize(std::clamp(frames, 0, longest_past), future());
 }
-
-void Synthesiser::resize(int past, int future) {
-  past = std::clamp(past, 0, longest_past), future = std::clamp(future, 0, longest_future);
-  Eigen::MatrixXf statics(model_->output.values, future + 1);
-  const int before = static_cast<int>(statics_.cols());
-  for (int back = 0; back <= future; ++back) {
-    const int column = future - back;
-    if (before == 0)
-      statics.col(column) = model_->output_mean.cast<float>();
-    else
-      statics.col(column) = statics_.col((newest_ - std::min(back, before - 1) + before) % before);
-  }
-  statics_ = std::move(statics);
-  newest_ = future;
-  trajectory_.resize(past, future);
-}
-
-void Synthesiser::set_past(int frames) { resize(frames, future()); }
 
 void Synthesiser::set_future(int frames) {
   frames = std::clamp(frames, 0, longest_future);
   if (frames == future()) return;
-  resize(past(), frames);
-  // The frames that come next are earlier or later ones than those that would have come.
-  flushed_ = 0;
-  if (alone_) restart_fed();
+  trajectory_.resize(past(), frames);
+  trajectory_.forget_flushed();
+  if (alone_) trajectory_.reset();
   jumps_ = shown_frames_ > 0 && !alone_;
 }
 
@@ -120,25 +103,9 @@ bool Synthesiser::fits(std::span<const float> means,
   return true;
 }
 
-void Synthesiser::load(std::span<const float> means, std::span<const float> variances) noexcept {
-  const Eigen::Index values = model_->output.values, modelled = model_->output.statics();
-  for (Eigen::Index part = 0; part < 3; ++part)
-    for (Eigen::Index i = 0; i < modelled; ++i) {
-      const auto at = static_cast<std::size_t>(
-          part * values + model_->output.modelled[static_cast<std::size_t>(i)]);
-      gaussian_.mean[part * modelled + i] = means[at];
-      gaussian_.variance[part * modelled + i] = variances[at];
-    }
-  newest_ = (newest_ + 1) % static_cast<int>(statics_.cols());
-  statics_.col(newest_) = Eigen::Map<const Eigen::VectorXf>(means.data(), values);
-}
-
-// The frame `back` frames ago: what moves as the trajectory has it, the rest as it was told.
-void Synthesiser::take_fed(const Eigen::Ref<const Eigen::VectorXf>& modelled, int back) noexcept {
-  const int length = static_cast<int>(statics_.cols());
-  scratch_.tail(model_->output.values) = statics_.col((newest_ - back + length) % length);
-  for (Eigen::Index i = 0; i < modelled.size(); ++i)
-    scratch_[inputs_ + model_->output.modelled[static_cast<std::size_t>(i)]] = modelled[i];
+// The frame that left the trajectory.
+void Synthesiser::take_fed() noexcept {
+  scratch_.tail(model_->output.values) = trajectory_.values();
   if (shown_frames_ == 0) controls_.arrive();
   controls_.apply(means_, scratch_);
   scratch_.head(inputs_) = shown_.now.head(inputs_);  // held, and bent by the walker already
@@ -147,35 +114,36 @@ void Synthesiser::take_fed(const Eigen::Ref<const Eigen::VectorXf>& modelled, in
 
 // Whether the Gaussian may come one frame after what was shown: its mean, against where its own
 // first differences lead from there.
-bool Synthesiser::follows_shown() const noexcept {
-  const Eigen::Index modelled = model_->output.statics();
+bool Synthesiser::follows_shown(std::span<const float> means,
+                                std::span<const float> variances) const noexcept {
+  const auto values = static_cast<std::size_t>(model_->output.values);
   float sum = 0;
-  for (Eigen::Index i = 0; i < modelled; ++i) {
-    const auto at = inputs_ + model_->output.modelled[static_cast<std::size_t>(i)];
-    const float difference = gaussian_.mean[i] - gaussian_.mean[modelled + i] - shown_.now[at];
-    sum += difference * difference / (gaussian_.variance[i] + gaussian_.variance[modelled + i]);
+  for (const int value : model_->output.modelled) {
+    const auto i = static_cast<std::size_t>(value);
+    const float difference = means[i] - means[values + i] - shown_.now[inputs_ + value];
+    sum += difference * difference / (variances[i] + variances[values + i]);
   }
-  return sum < farthest_following * farthest_following * static_cast<float>(modelled);
+  return sum <
+         farthest_following * farthest_following * static_cast<float>(model_->output.statics());
 }
 
 bool Synthesiser::push(std::span<const float> means, std::span<const float> variances,
                        bool after_gap) noexcept {
   if (!fits(means, variances)) return false;
-  if (flushed_ > 0) begin_alone();
-  load(means, variances);
-  if (after_gap && !alone_ && shown_frames_ > 0 && !follows_shown()) {
+  if (trajectory_.flushed()) begin_alone();
+  if (after_gap && !alone_ && shown_frames_ > 0 && !follows_shown(means, variances)) {
     trajectory_.reset();
     jumps_ = true;
   }
-  trajectory_.push(gaussian_);
+  const bool leaves = trajectory_.push(means, variances);
   stood_ = !walking_;
   move_place();
-  if (!trajectory_.ready()) {
+  if (!leaves) {
     if (!alone_ || shown_frames_ == 0) return false;
     make_alone();
     return alone_as_ != OnLost::stop;
   }
-  take_fed(trajectory_.generate().col(0), future());
+  take_fed();
   if (alone_ && shown_frames_ > 0) {
     if (returned_++ < settling_ || !in_step()) {
       make_alone();
@@ -194,7 +162,7 @@ bool Synthesiser::push(std::span<const float> means, std::span<const float> vari
 
 bool Synthesiser::in_step() noexcept {
   if (alone_as_ != OnLost::walk || stood_ || !place_.fresh || returned_ > patience_) return true;
-  return fall_in_step(walker_, place_.phase, place_.cadence);
+  return fall_in_step(*walker_, place_.phase, place_.cadence);
 }
 
 // What was said since the last frame speaks of this one.
@@ -206,28 +174,29 @@ void Synthesiser::move_place() noexcept {
 
 bool Synthesiser::go_on() noexcept {
   if (!alone_) {
-    const int held = std::min(trajectory_.filled(), future()) - flushed_;
-    if (held > 0 && shown_frames_ > 0) {
-      take_fed(trajectory_.flush(held).col(0), held - 1);
-      ++flushed_;
-      show(fed_);
-      return true;
-    }
+    if (shown_frames_ > 0 && flush()) return true;
     begin_alone();
   } else if (alone_as_ != wanted()) {
     begin_alone();
   }
-  walker_.set_pace(1);
+  if (walker_) walker_->set_pace(1);
   // Frames that came and stopped again are not the same motion as those that come next.
-  restart_fed();
+  trajectory_.reset();
   returned_ = 0;
   if (alone_as_ == OnLost::stop || (alone_as_ == OnLost::hold && shown_frames_ == 0)) return false;
   make_alone();
   return true;
 }
 
+bool Synthesiser::flush() noexcept {
+  if (alone_ || !trajectory_.flush()) return false;
+  take_fed();
+  show(fed_);
+  return true;
+}
+
 OnLost Synthesiser::wanted() const noexcept {
-  return on_lost_ == OnLost::walk && stood_ ? OnLost::hold : on_lost_;
+  return on_lost_ == OnLost::walk && (stood_ || !walker_) ? OnLost::hold : on_lost_;
 }
 
 void Synthesiser::begin_alone() noexcept {
@@ -235,7 +204,7 @@ void Synthesiser::begin_alone() noexcept {
   jumps_ = false;
   alone_as_ = wanted();
   returned_ = 0;
-  restart_fed();
+  trajectory_.reset();
   if (shown_frames_ == 0) return;
   if (alone_as_ == OnLost::walk)
     walk_from_shown();
@@ -247,21 +216,21 @@ void Synthesiser::begin_alone() noexcept {
 // The walker one frame before the last one shown, then there: two frames, so a speed.
 void Synthesiser::walk_from_shown() noexcept {
   if (place_.known) {
-    StepPlace place = walker_.place_at(0, place_.phase, -period_ * place_.cadence);
+    StepPlace place = walker_->place_at(0, place_.phase, -period_ * place_.cadence);
     place.cadence = place_.cadence;
-    walker_.enter(place, weights_);
+    walker_->enter(place, weights_);
     place_.known = place_.fresh = false;
   } else {
-    walker_.advance();
+    walker_->advance();
   }
   take_walked();
-  walker_.advance();
+  walker_->advance();
   take_walked();
 }
 
 void Synthesiser::take_walked() noexcept {
-  std::ranges::copy(walker_.inputs(), scratch_.data());
-  std::ranges::copy(walker_.outputs(), scratch_.data() + inputs_);
+  std::ranges::copy(walker_->inputs(), scratch_.data());
+  std::ranges::copy(walker_->outputs(), scratch_.data() + inputs_);
   walked_.take(scratch_);
 }
 
@@ -275,7 +244,7 @@ void Synthesiser::hand_over_to(const Moving& motion, bool speed_known) noexcept 
 void Synthesiser::make_alone() noexcept {
   if (alone_as_ == OnLost::stop) return;
   if (alone_as_ == OnLost::walk) {
-    walker_.advance();
+    walker_->advance();
     take_walked();
   }
   show(walked_);
@@ -283,7 +252,7 @@ void Synthesiser::make_alone() noexcept {
 
 void Synthesiser::show(const Moving& motion) noexcept {
   controls_.advance(cadence_ * period_);
-  if (&motion == &fed_) walker_.streams().advance(cadence_ * period_);  // it sleeps
+  if (walker_ && &motion == &fed_) walker_->streams().advance(cadence_ * period_);  // it sleeps
   shown_.take(motion.now);
   shown_frames_ = std::min(shown_frames_ + 1, 2);
   hand_over_.apply(shown_.now);
@@ -315,30 +284,30 @@ void Synthesiser::set_walking(bool walking) noexcept {
 }
 
 bool Synthesiser::set_scale(int stream, float scale) noexcept {
-  return controls_.set_scale(stream, scale) && walker_.streams().set_scale(stream, scale);
+  return controls_.set_scale(stream, scale) &&
+         (!walker_ || walker_->streams().set_scale(stream, scale));
 }
 bool Synthesiser::set_shift(int stream, std::span<const float> by) noexcept {
-  return controls_.set_shift(stream, by) && walker_.streams().set_shift(stream, by);
+  return controls_.set_shift(stream, by) && (!walker_ || walker_->streams().set_shift(stream, by));
 }
 bool Synthesiser::fix(int stream, std::span<const float> at) noexcept {
-  return controls_.fix(stream, at) && walker_.streams().fix(stream, at);
+  return controls_.fix(stream, at) && (!walker_ || walker_->streams().fix(stream, at));
 }
 bool Synthesiser::free(int stream) noexcept {
-  return controls_.free(stream) && walker_.streams().free(stream);
+  return controls_.free(stream) && (!walker_ || walker_->streams().free(stream));
 }
 
 bool Synthesiser::take_over(const Synthesiser& other) {
   if (inputs_ != other.inputs_ || shown_.now.size() != other.shown_.now.size() ||
       pose_.size() != other.pose_.size() || weights_.size() != other.weights_.size() ||
-      !walker_.take_over(other.walker_))
+      walker_.has_value() != other.walker_.has_value() ||
+      (walker_ && !walker_->take_over(*other.walker_)))
     return false;
-  if (past() != other.past() || future() != other.future()) resize(other.past(), other.future());
   if (model_->output.modelled == other.model_->output.modelled) {
     trajectory_ = other.trajectory_;
-    statics_ = other.statics_;
-    newest_ = other.newest_, flushed_ = other.flushed_;
   } else {
-    restart_fed();
+    trajectory_.resize(other.past(), other.future());
+    trajectory_.reset();
   }
   controls_.take_over(other.controls_);
   hand_over_ = other.hand_over_;

@@ -1,8 +1,8 @@
 // Synthesiser (T14 §4.3, MAGE): Gaussians in, smooth output frames out; without them it walks
 // alone.
 //
-// Fed, it runs the trajectory generator over the frames' Gaussians: with settings at their defaults
-// its outputs are the Player's. Alone it is a StepWalker. When the input stops it hands out what
+// Fed, it runs the trajectory generator over the frames' Gaussians (FedTrajectory). Alone it is a
+// StepWalker, if it may walk alone. When the input stops it hands out what
 // was held back, then walks on from the very outputs it was in, or comes to rest, or stops; when
 // the input returns it stays alone until the observations' history is whole again and the walker
 // has fallen in step (two seconds at most; at once when nobody says where the walk is), then goes
@@ -23,22 +23,26 @@
 
 #include "gait/model/model.h"
 #include "gait/play/change/stream_hand_over.h"
+#include "gait/play/synthesise/fed_trajectory.h"
 #include "gait/play/synthesise/on_lost.h"
 #include "gait/play/synthesise/step_walker.h"
 #include "gait/play/synthesise/stream_controls.h"
-#include "gait/play/synthesise/trajectory.h"
 
 namespace gait {
 
 struct SynthesiserSettings {
   std::optional<int> past, future;  // frames of the fed trajectory's queue: P, F; else the model's
+  int current = 1;                  // C
+  // Whether it can walk alone, which takes a model with trajectory statistics. If not, it comes to
+  // rest when the input stops.
+  bool walks_alone = true;
 };
 
 class Synthesiser {
  public:
   static constexpr int longest_past = 600, longest_future = 120;  // frames
 
-  // Throws Error as StepWalker does.
+  // Throws Error as StepWalker does, if it is to walk alone.
   explicit Synthesiser(const PlayModel& played, const SynthesiserSettings& settings = {});
 
   // Takes the next frame's Gaussian over all output values: statics, first, then second differences
@@ -53,6 +57,8 @@ class Synthesiser {
   // Makes the next frame, 1 / model.frame_rate on, without one. False when it stopped, or when
   // there is nothing to hold.
   bool go_on() noexcept;
+  // Makes the next of the frames that are held back, at the end of a stream. False when none is.
+  bool flush() noexcept;
 
   // Where whoever feeds it is: phase of the cycle, labels per second, a weight per style. From
   // there it goes on, and with that it falls in step. False, with nothing changed, when a number is
@@ -66,7 +72,10 @@ class Synthesiser {
   void set_past(int frames);
   void set_future(int frames);
   int past() const noexcept { return trajectory_.past(); }
-  int future() const noexcept { return trajectory_.future(); }  // frames by which output is late
+  int future() const noexcept { return trajectory_.future(); }
+  int delay() const noexcept { return trajectory_.delay(); }  // frames by which output is late
+  // How many frames were fed after the one that was made last.
+  int held() const noexcept { return trajectory_.held(); }
 
   // Controls of single streams, inputs then outputs (StreamControls), for both ways of walking.
   bool set_scale(int stream, float scale) noexcept;
@@ -82,15 +91,17 @@ class Synthesiser {
   // values, then the outputs'.
   std::span<const float> pose() const noexcept { return pose_; }
 
-  // What walks alone, to control it: its queue, durations and styles. Streams: see above.
-  StepWalker& walker() noexcept { return walker_; }
-  const StepWalker& walker() const noexcept { return walker_; }
+  // What walks alone, to control it: its queue, durations and styles. Streams: see above. There is
+  // none if it does not walk alone.
+  StepWalker& walker() noexcept { return *walker_; }
+  const StepWalker& walker() const noexcept { return *walker_; }
   const Model& model() const noexcept { return *model_; }
 
   // Anew, alone and unfed; settings stay.
   void reset() noexcept;
   // Goes on where another one is, whose model may be another; settings live on. False, with nothing
-  // changed, unless the models are of equal sizes. Allocates when the queues' lengths differ.
+  // changed, unless the models are of equal sizes. Allocates when the queues differ in length, or
+  // in which values move.
   bool take_over(const Synthesiser& other);
 
  private:
@@ -99,24 +110,21 @@ class Synthesiser {
     void take(const Eigen::VectorXf& values) noexcept;
   };
 
-  void load(std::span<const float> means, std::span<const float> variances) noexcept;
-  void take_fed(const Eigen::Ref<const Eigen::VectorXf>& modelled, int back) noexcept;
+  void take_fed() noexcept;
   void take_walked() noexcept;
   void begin_alone() noexcept;
   void walk_from_shown() noexcept;
   void hand_over_to(const Moving& motion, bool speed_known) noexcept;
-  bool follows_shown() const noexcept;
+  bool follows_shown(std::span<const float> means, std::span<const float> variances) const noexcept;
   bool in_step() noexcept;
   void make_alone() noexcept;
   void show(const Moving& motion) noexcept;
   void move_place() noexcept;
-  void restart_fed() noexcept;
   OnLost wanted() const noexcept;
-  void resize(int past, int future);
 
   std::shared_ptr<const Model> model_;
-  StepWalker walker_;
-  Trajectory trajectory_;
+  std::optional<StepWalker> walker_;
+  FedTrajectory trajectory_;
   StreamControls controls_;  // of fed frames
   StreamHandOver hand_over_;
   float period_, cadence_;      // of a frame, seconds; labels per second in the model's mean
@@ -124,12 +132,7 @@ class Synthesiser {
   int settling_, patience_;     // frames
   std::vector<int> positions_;  // in the pose, per value of inputs and outputs; -1: in none
 
-  OutputGaussian gaussian_;
-  Eigen::MatrixXf statics_;  // of all output values: a ring, future + 1 columns
-  int newest_ = 0;
-  int flushed_ = 0;     // of the frames that the future holds back, since the input stopped
   bool jumps_ = false;  // the next fed frame does not follow the one shown
-
   OnLost on_lost_ = OnLost::walk, alone_as_ = OnLost::walk;
   bool alone_ = false, walking_ = true, stood_ = false;
   int returned_ = 0;      // frames fed again while still alone

@@ -1,5 +1,3 @@
-#include "gait/play/reconstructor.h"
-
 #include <gtest/gtest.h>
 
 #include <algorithm>
@@ -8,6 +6,7 @@
 #include <map>
 
 #include "gait/error.h"
+#include "gait/play/stream_reconstructor.h"
 #include "play/few_walks.h"
 #include "play/random_model.h"
 
@@ -27,7 +26,7 @@ struct Frame {
   Eigen::Vector3f hips;
 };
 
-void collect(const Reconstructor& reconstructor, std::vector<Frame>& frames) {
+void collect(const StreamReconstructor& reconstructor, std::vector<Frame>& frames) {
   const ReconstructedFrame& frame = reconstructor.frame();
   frames.push_back({frame.time,
                     frame.decision,
@@ -36,7 +35,7 @@ void collect(const Reconstructor& reconstructor, std::vector<Frame>& frames) {
                     frame.hips});
 }
 
-std::vector<Frame> stream(Reconstructor& reconstructor, const InputPoses& poses, double rate,
+std::vector<Frame> stream(StreamReconstructor& reconstructor, const InputPoses& poses, double rate,
                           double start = 0) {
   std::vector<Frame> frames;
   for (std::size_t i = 0; i < poses.size(); ++i) {
@@ -47,13 +46,18 @@ std::vector<Frame> stream(Reconstructor& reconstructor, const InputPoses& poses,
   return frames;
 }
 
-TEST(Reconstructor, decides_alike_on_a_walk_sent_at_30_60_and_120_frames_a_second) {
+// On their way through the chain rotations are rotation vectors: the last digit may differ.
+bool same_turn(const Eigen::Quaternionf& a, const Eigen::Quaternionf& b) {
+  return angle_between<float>(a, b) < 1e-6f;
+}
+
+TEST(BodyReconstruction, decides_alike_on_a_walk_sent_at_30_60_and_120_frames_a_second) {
   const auto model = few_walks_model();
   for (const WalkStyle& walked : corpus_styles()) {
     const std::string& style = walked.name;
     std::map<int, std::vector<Frame>> at_rate;
     for (const int rate : {30, 60, 120}) {
-      Reconstructor reconstructor(model);
+      StreamReconstructor reconstructor(model);
       at_rate[rate] = stream(
           reconstructor, input_poses(make_walk(plan_of(style, 9), rate).clip, *model->body), rate);
     }
@@ -74,14 +78,14 @@ TEST(Reconstructor, decides_alike_on_a_walk_sent_at_30_60_and_120_frames_a_secon
   }
 }
 
-TEST(Reconstructor, decides_alike_where_the_senders_frames_lie_between_the_models) {
+TEST(BodyReconstruction, decides_alike_where_the_senders_frames_lie_between_the_models) {
   const auto model = few_walks_model();
   for (const char* style : {"proud", "drunk"}) {
-    Reconstructor at_own_rate(model);
+    StreamReconstructor at_own_rate(model);
     const auto own =
         stream(at_own_rate, input_poses(make_walk(plan_of(style, 9)).clip, *model->body), 30);
     for (const int rate : {50, 72, 100}) {
-      Reconstructor reconstructor(model);
+      StreamReconstructor reconstructor(model);
       const auto other = stream(
           reconstructor, input_poses(make_walk(plan_of(style, 9), rate).clip, *model->body), rate);
       const std::size_t frames = std::min(own.size(), other.size());
@@ -99,7 +103,7 @@ TEST(Reconstructor, decides_alike_where_the_senders_frames_lie_between_the_model
   }
 }
 
-TEST(Reconstructor, sees_the_input_joints_and_nothing_else) {
+TEST(BodyReconstruction, sees_the_input_joints_and_nothing_else) {
   const auto model = few_walks_model();
   const CorpusWalk walk = make_walk(plan_of("sad", 9));
   Clip noisy = walk.clip;
@@ -109,7 +113,7 @@ TEST(Reconstructor, sees_the_input_joints_and_nothing_else) {
       noisy.pose(frame)[joint] = Eigen::Quaterniond(Eigen::Vector4d::Random()).normalized();
       noisy.translation(frame)[joint].setRandom();
     }
-  Reconstructor a(model), b(model);
+  StreamReconstructor a(model), b(model);
   const auto clean = stream(a, input_poses(walk.clip, body), 30);
   const auto disturbed = stream(b, input_poses(noisy, body), 30);
   ASSERT_EQ(clean.size(), disturbed.size());
@@ -121,17 +125,17 @@ TEST(Reconstructor, sees_the_input_joints_and_nothing_else) {
   }
 }
 
-TEST(Reconstructor, leaves_input_joints_as_they_came_and_walks_on) {
+TEST(BodyReconstruction, leaves_input_joints_as_they_came_and_walks_on) {
   const auto model = few_walks_model();
   const CorpusWalk walk = make_walk(plan_of("proud", 9));
   const InputPoses poses = input_poses(walk.clip, *model->body);
-  Reconstructor reconstructor(model);
+  StreamReconstructor reconstructor(model);
   const auto frames = stream(reconstructor, poses, 30);
   ASSERT_EQ(frames.size(), poses.size());
   for (std::size_t i = 0; i < frames.size(); ++i) {
     EXPECT_NEAR(frames[i].time, static_cast<double>(i) / 30, 1e-9);
     for (std::size_t j = 0; j < poses[i].size(); ++j)
-      EXPECT_EQ(frames[i].pose[model->body->input_joints[j]].coeffs(), poses[i][j].coeffs());
+      EXPECT_TRUE(same_turn(frames[i].pose[model->body->input_joints[j]], poses[i][j]));
     for (const Eigen::Quaternionf& rotation : frames[i].pose) EXPECT_NEAR(rotation.norm(), 1, 1e-4);
   }
   const int begin = walk.contacts.front().frame, end = walk.contacts.back().frame;
@@ -140,34 +144,34 @@ TEST(Reconstructor, leaves_input_joints_as_they_came_and_walks_on) {
   EXPECT_NEAR(walked / truth, 1, 0.1);
 }
 
-TEST(Reconstructor, delays_hold_frames_back_but_lose_none) {
+TEST(BodyReconstruction, delays_hold_frames_back_but_lose_none) {
   const auto model = few_walks_model();
   const CorpusWalk walk = make_walk(plan_of("drunk", 9));
   const InputPoses poses = input_poses(walk.clip, *model->body);
   for (const double lag : {0.0, 0.2})
     for (const int future : {0, 3}) {
-      PlayerSettings settings;
+      PlaySettings settings;
       settings.decoder = DecoderKind::lag;
       settings.lag = lag;
       settings.future = future;
       settings.current = future > 0 ? 2 : 1;
-      Reconstructor reconstructor(model, settings);
+      StreamReconstructor reconstructor(model, settings);
       const auto frames = stream(reconstructor, poses, 30);
       ASSERT_EQ(frames.size(), poses.size()) << lag << " " << future;
       for (std::size_t i = 0; i < frames.size(); ++i) {
         EXPECT_NEAR(frames[i].time, static_cast<double>(i) / 30, 1e-9);
         for (std::size_t j = 0; j < poses[i].size(); ++j)
-          ASSERT_EQ(frames[i].pose[model->body->input_joints[j]].coeffs(), poses[i][j].coeffs())
+          ASSERT_TRUE(same_turn(frames[i].pose[model->body->input_joints[j]], poses[i][j]))
               << "the pose of the very frame";
       }
     }
 }
 
-TEST(Reconstructor, begins_anew_after_a_gap_but_stays_where_it_is) {
+TEST(BodyReconstruction, begins_anew_after_a_gap_but_stays_where_it_is) {
   const auto model = few_walks_model();
   const InputPoses first = input_poses(make_walk(plan_of("proud", 9)).clip, *model->body);
   const InputPoses second = input_poses(make_walk(plan_of("sad", 9)).clip, *model->body);
-  Reconstructor interrupted(model), fresh(model);
+  StreamReconstructor interrupted(model), fresh(model);
   const auto before = stream(interrupted, first, 30);
   const auto after = stream(interrupted, second, 30, 100);
   const auto alone = stream(fresh, second, 30, 100);
@@ -182,14 +186,14 @@ TEST(Reconstructor, begins_anew_after_a_gap_but_stays_where_it_is) {
   }
 }
 
-TEST(Reconstructor, a_gap_while_frames_are_held_back_does_not_mix_them) {
+TEST(BodyReconstruction, a_gap_while_frames_are_held_back_does_not_mix_them) {
   const auto model = few_walks_model();
-  PlayerSettings settings;
+  PlaySettings settings;
   settings.decoder = DecoderKind::lag;
   settings.lag = 0.2;
   settings.future = 2;
   const InputPoses poses = input_poses(make_walk(plan_of("proud", 9)).clip, *model->body);
-  Reconstructor reconstructor(model, settings);
+  StreamReconstructor reconstructor(model, settings);
   std::vector<Frame> frames;
   for (int run = 0; run < 2; ++run)
     for (int i = 0; i < 60; ++i) {
@@ -201,15 +205,14 @@ TEST(Reconstructor, a_gap_while_frames_are_held_back_does_not_mix_them) {
   ASSERT_EQ(frames.size(), 120u - delay) << "what the gap cut off is not played";
   for (int i = 0; i < 60; ++i) {
     EXPECT_NEAR(frames[60 - delay + i].time, 50 + i / 30.0, 1e-9);
-    EXPECT_EQ(frames[60 - delay + i].pose[model->body->input_joints[0]].coeffs(),
-              poses[i][0].coeffs());
+    EXPECT_TRUE(same_turn(frames[60 - delay + i].pose[model->body->input_joints[0]], poses[i][0]));
   }
 }
 
-TEST(Reconstructor, rejects_poses_that_are_none_and_plays_on) {
+TEST(BodyReconstruction, rejects_poses_that_are_none_and_plays_on) {
   const auto model = few_walks_model();
   const InputPoses poses = input_poses(make_walk(plan_of("proud", 9)).clip, *model->body);
-  Reconstructor reconstructor(model), undisturbed(model);
+  StreamReconstructor reconstructor(model), undisturbed(model);
   using Arrival = FrameClock::Arrival;
   for (int i = 0; i < 40; ++i) {
     const double time = i / 30.0;
@@ -229,10 +232,10 @@ TEST(Reconstructor, rejects_poses_that_are_none_and_plays_on) {
   }
 }
 
-TEST(Reconstructor, a_joint_that_is_lost_after_a_bad_pose_is_held_at_the_last_good_one) {
+TEST(BodyReconstruction, a_joint_that_is_lost_after_a_bad_pose_is_held_at_the_last_good_one) {
   const auto model = few_walks_model();
   const InputPoses poses = input_poses(make_walk(plan_of("proud", 9)).clip, *model->body);
-  Reconstructor reconstructor(model);
+  StreamReconstructor reconstructor(model);
   for (int i = 0; i < 20; ++i) {
     reconstructor.push(i / 30.0, poses[i]);
     while (reconstructor.next()) {
@@ -244,12 +247,7 @@ TEST(Reconstructor, a_joint_that_is_lost_after_a_bad_pose_is_held_at_the_last_go
   reconstructor.set_missing(1, true);
   EXPECT_EQ(reconstructor.push(20 / 30.0, bad), FrameClock::Arrival::accepted);
   ASSERT_TRUE(reconstructor.next());
-  EXPECT_EQ(reconstructor.frame().pose[model->body->input_joints[1]].coeffs(),
-            poses[19][1].coeffs());
-}
-
-TEST(Reconstructor, needs_a_model_of_a_body) {
-  EXPECT_THROW(Reconstructor(std::make_shared<const Model>(testing::random_model())), Error);
+  EXPECT_TRUE(same_turn(reconstructor.frame().pose[model->body->input_joints[1]], poses[19][1]));
 }
 
 }  // namespace

@@ -1,4 +1,4 @@
-#include "gait/play/player.h"
+#include "gait/play/stream_reconstructor.h"
 
 #include <gtest/gtest.h>
 
@@ -21,12 +21,12 @@ using testing::play_through;
 using testing::Played;
 using testing::streams_of;
 
-TEST(Player, knows_the_steps_and_style_of_a_walk_it_has_not_seen) {
+TEST(StreamReconstructor, knows_the_steps_and_style_of_a_walk_it_has_not_seen) {
   const auto model = few_walks_model();
   const CorpusWalk walk = make_walk(plan_of("in-a-hurry", 9));
   const Sequence truth = streams_of(walk, *model->body);
-  Player player(model);
-  const Played played = play_through(player, truth.inputs.cast<float>());
+  StreamReconstructor reconstructor(model);
+  const Played played = play_through(reconstructor, truth.inputs.cast<float>());
   ASSERT_EQ(static_cast<int>(played.decisions.size()), walk.clip.frames());
   int right = 0, frames = 0;
   double distance = 0;
@@ -46,43 +46,42 @@ TEST(Player, knows_the_steps_and_style_of_a_walk_it_has_not_seen) {
   EXPECT_EQ(model->styles[best], "in-a-hurry");
 }
 
-TEST(Player, hands_out_every_frame_once_whatever_the_delays) {
+TEST(StreamReconstructor, hands_out_every_frame_once_whatever_the_delays) {
   const auto model = few_walks_model();
   const Eigen::MatrixXf inputs = held_out_inputs();
   const int frames = static_cast<int>(inputs.cols());
   for (const double lag : {0.0, 0.1})
     for (const int current : {1, 3})
       for (const int future : {0, 4}) {
-        PlayerSettings settings;
+        PlaySettings settings;
         settings.decoder = DecoderKind::lag;
         settings.lag = lag;
         settings.past = 10;
         settings.current = current;
         settings.future = future;
-        Player player(model, settings);
-        EXPECT_EQ(player.delay(), std::lround(lag * 30) + future + current - 1);
+        StreamReconstructor reconstructor(model, settings);
+        EXPECT_EQ(reconstructor.delay(), std::lround(lag * 30) + future + current - 1);
         int out = 0;
         for (int frame = 0; frame < frames; ++frame) {
-          player.advance(frame_of(inputs, frame));
-          out += player.available();
-          EXPECT_GE(out, frame + 1 - player.delay());
+          out += reconstructor.advance(frame_of(inputs, frame));
+          EXPECT_GE(out, frame + 1 - reconstructor.delay());
           EXPECT_LE(out, std::max(0, frame + 1 - static_cast<int>(std::lround(lag * 30)) - future));
         }
-        while (player.flush()) out += player.available();
+        while (reconstructor.flush()) ++out;
         EXPECT_EQ(out, frames) << "lag " << lag << " C " << current << " F " << future;
-        EXPECT_FALSE(player.flush());
+        EXPECT_FALSE(reconstructor.flush());
       }
 }
 
-TEST(Player, with_delay_speaks_of_the_frame_that_it_hands_out) {
+TEST(StreamReconstructor, with_delay_speaks_of_the_frame_that_it_hands_out) {
   const auto model = few_walks_model();
   const Eigen::MatrixXf inputs = held_out_inputs();
-  PlayerSettings now, later;
+  PlaySettings now, later;
   now.decoder = later.decoder = DecoderKind::viterbi;
   now.past = later.past = 0;
   now.future = 0;
   later.future = 5;
-  Player prompt(model, now), late(model, later);
+  StreamReconstructor prompt(model, now), late(model, later);
   const Played a = play_through(prompt, inputs), b = play_through(late, inputs);
   ASSERT_EQ(a.decisions.size(), b.decisions.size());
   for (std::size_t i = 0; i < a.decisions.size(); ++i) {
@@ -94,14 +93,14 @@ TEST(Player, with_delay_speaks_of_the_frame_that_it_hands_out) {
   }
 }
 
-TEST(Player, a_lag_of_the_whole_walk_decides_as_a_look_back_from_its_end) {
+TEST(StreamReconstructor, a_lag_of_the_whole_walk_decides_as_a_look_back_from_its_end) {
   const auto model = few_walks_model();
   const Eigen::MatrixXf inputs = held_out_inputs("drunk");
-  PlayerSettings settings;
+  PlaySettings settings;
   settings.decoder = DecoderKind::lag;
   settings.lag = static_cast<double>(inputs.cols()) / 30;
-  Player player(model, settings);
-  const Played whole = play_through(player, inputs);
+  StreamReconstructor reconstructor(model, settings);
+  const Played whole = play_through(reconstructor, inputs);
   ASSERT_EQ(static_cast<Eigen::Index>(whole.decisions.size()), inputs.cols());
   // On the best path states follow each other in order, without skips.
   for (std::size_t i = 1; i < whole.decisions.size(); ++i) {
@@ -114,7 +113,7 @@ TEST(Player, a_lag_of_the_whole_walk_decides_as_a_look_back_from_its_end) {
   }
 }
 
-TEST(Player, sets_values_that_never_move_to_what_they_were) {
+TEST(StreamReconstructor, sets_values_that_never_move_to_what_they_were) {
   Model model = *few_walks_model();
   // The second output value is one that never moved in training.
   const int statics = model.output.statics(), removed = 1;
@@ -137,9 +136,9 @@ TEST(Player, sets_values_that_never_move_to_what_they_were) {
   const int value = model.output.modelled[removed];
   model.output.modelled.erase(model.output.modelled.begin() + removed);
   model.output_mean[value] = 0.625;
-  Player player(std::make_shared<const Model>(model)), whole(few_walks_model());
+  StreamReconstructor reconstructor(std::make_shared<const Model>(model)), whole(few_walks_model());
   const Eigen::MatrixXf inputs = held_out_inputs();
-  const Played played = play_through(player, inputs), full = play_through(whole, inputs);
+  const Played played = play_through(reconstructor, inputs), full = play_through(whole, inputs);
   for (std::size_t frame = 0; frame < played.outputs.size(); ++frame) {
     EXPECT_EQ(played.outputs[frame][value], 0.625f);
     for (const int other : model.output.modelled)
@@ -147,10 +146,10 @@ TEST(Player, sets_values_that_never_move_to_what_they_were) {
   }
 }
 
-TEST(Player, after_a_reset_plays_as_a_new_one) {
+TEST(StreamReconstructor, after_a_reset_plays_as_a_new_one) {
   const auto model = few_walks_model();
   const Eigen::MatrixXf first = held_out_inputs("drunk"), second = held_out_inputs("sad");
-  Player used(model), fresh(model);
+  StreamReconstructor used(model), fresh(model);
   play_through(used, first);
   used.reset();
   const Played a = play_through(used, second), b = play_through(fresh, second);
@@ -163,19 +162,19 @@ TEST(Player, after_a_reset_plays_as_a_new_one) {
   }
 }
 
-TEST(Player, plays_streams_that_are_no_body_and_labels_that_are_no_steps) {
+TEST(StreamReconstructor, plays_streams_that_are_no_body_and_labels_that_are_no_steps) {
   const auto model = std::make_shared<const Model>(testing::random_model({.states = {2, 3, 1}}));
-  Player player(model);
+  StreamReconstructor reconstructor(model);
   for (unsigned frame = 0; frame < 50; ++frame) {
     const Eigen::VectorXf values = testing::random_vector(model->input.values, frame);
-    player.advance({values.data(), static_cast<std::size_t>(values.size())});
-    ASSERT_EQ(player.available(), 1);
-    const Decision& decision = player.decision(0);
+    ASSERT_TRUE(reconstructor.advance({values.data(), static_cast<std::size_t>(values.size())}));
+    const Decision& decision = reconstructor.frame().decision;
     EXPECT_GE(decision.label, 0);
     EXPECT_LT(decision.label, 3);
     EXPECT_GE(decision.phase, 0);
     EXPECT_LE(decision.phase, 1);
-    for (const float value : player.output(0)) EXPECT_TRUE(std::isfinite(value));
+    for (const float value : reconstructor.frame().outputs) EXPECT_TRUE(std::isfinite(value));
+    EXPECT_TRUE(reconstructor.frame().pose.empty());
   }
 }
 
