@@ -5,7 +5,7 @@
 #include "gait/play/map/observation_message.h"
 #include "objects.h"
 #include "pd/model_player.h"
-#include "stream_argument.h"
+#include "pd/stream_argument.h"
 
 namespace gait::pd {
 

@@ -9,7 +9,7 @@
 
 #include "gait/osc/jitter_buffer.h"
 #include "gait/osc/live_body.h"
-#include "latency.h"
+#include "osc_latency.h"
 #include "pd/outlet.h"
 #include "pd/perf.h"
 

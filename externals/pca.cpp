@@ -1,11 +1,11 @@
 // [gait.pca NAME style|speed]: walks by itself in a space of cycles (T10, G04).
-#include "cycle_walking.h"
+#include "pca_walking.h"
 #include "gait/error.h"
 #include "gait/play/cycles/cycle_projector.h"
 #include "objects.h"
 #include "pd/ticker.h"
 #include "pd/worker.h"
-#include "pose_values.h"
+#include "pd/pose_values.h"
 
 namespace gait::pd {
 

@@ -1,9 +1,9 @@
 // [gait.skeleton NAME]: the body in the world: parts put together, walking by its feet.
 #include "gait/play/body/body_stage.h"
-#include "joint_argument.h"
+#include "pd/joint_argument.h"
 #include "objects.h"
 #include "pd/model_player.h"
-#include "stage_setting.h"
+#include "skeleton_setting.h"
 
 namespace gait::pd {
 
@@ -163,7 +163,7 @@ class Skeleton final : public ModelPlayer<BodyStage> {
   Outlet figure_, body_, info_;
   std::vector<float> inputs_, outputs_, pose_, root_ = std::vector<float>(4);
   bool bones_due_ = false;
-  StageSetting settings_;
+  SkeletonSetting settings_;
 };
 
 }  // namespace

@@ -2,7 +2,7 @@
 #include <cmath>
 
 #include "gait/error.h"
-#include "label_setting.h"
+#include "synth_label_setting.h"
 #include "objects.h"
 #include "pd/model_player.h"
 #include "pd/ticker.h"

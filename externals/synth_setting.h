@@ -2,7 +2,7 @@
 // when it is replaced.
 //
 //   style, weight, styles   see StyleSetting
-//   joint ...               see StreamSetting
+//   joint ...               see JointSetting
 //   auto 0|1                labels follow by themselves
 //   duration scale|shift|fix X, cadence C
 //   past N, future N        frames of the fed trajectory's queue
@@ -14,8 +14,8 @@
 #include <optional>
 #include <string>
 
-#include "stream_setting.h"
-#include "style_setting.h"
+#include "synth_joint_setting.h"
+#include "pd/style_setting.h"
 
 namespace gait::pd {
 
@@ -41,7 +41,7 @@ class SynthSetting {
   void set_numbers(Synthesiser& synthesiser) const;
 
   StyleSetting styles_;
-  StreamSetting joints_;
+  JointSetting joints_;
   bool auto_ = true;
   float scale_ = 1, shift_ = 0, fixed_ = 0, cadence_ = 0;
   std::optional<int> past_, future_;

@@ -14,8 +14,8 @@
 #include "pd/models.h"
 #include "pd/ticker.h"
 #include "pd/worker.h"
-#include "pose_values.h"
-#include "take_recorder.h"
+#include "pd/pose_values.h"
+#include "train_recorder.h"
 
 namespace gait::pd {
 

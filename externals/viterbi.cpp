@@ -3,13 +3,13 @@
 #include "gait/play/input/sender_clock.h"
 #include "gait/play/map/observation_message.h"
 #include "gait/play/recognise/live_recogniser.h"
-#include "listening.h"
-#include "multichannel.h"
+#include "viterbi_setting.h"
+#include "pd/multichannel.h"
 #include "objects.h"
 #include "pd/model_player.h"
 #include "pd/phase_signals.h"
-#include "signal_input.h"
-#include "single_inputs.h"
+#include "viterbi_signal_input.h"
+#include "viterbi_single_inputs.h"
 
 namespace gait::pd {
 
@@ -74,18 +74,18 @@ class Viterbi final : public ModelPlayer<Recognising> {
   }
 
   void decoder(const Arguments& arguments) {
-    listening_.decoder(arguments);
+    settings_.decoder(arguments);
     follow_decoder();
   }
   void mask(const Arguments& arguments) {
-    listening_.mask(arguments, model() ? model()->model.get() : nullptr);
-    if (playing()) listening_.apply(live(), *model()->model);
+    settings_.mask(arguments, model() ? model()->model.get() : nullptr);
+    if (playing()) settings_.apply(live(), *model()->model);
   }
-  template <void (Listening::*Set)(const Arguments&)>
+  template <void (ViterbiSetting::*Set)(const Arguments&)>
   void set(const Arguments& arguments) {
-    (listening_.*Set)(arguments);
-    if (playing()) listening_.apply(live(), *model()->model);
-    sender_.set_rate(listening_.rate());
+    (settings_.*Set)(arguments);
+    if (playing()) settings_.apply(live(), *model()->model);
+    sender_.set_rate(settings_.rate());
   }
   void resend(const Arguments&) {
     tell(streaming_, "stream");
@@ -99,7 +99,7 @@ class Viterbi final : public ModelPlayer<Recognising> {
     signals_.clock().set_walking(walking_);
     step_ = style_ = -1;
   }
-  void dump(const Arguments&) { listening_.dump(info_); }
+  void dump(const Arguments&) { settings_.dump(info_); }
   void report_perf(const Arguments&) { perf().report(info_); }
   void print(const Arguments&) {
     if (!playing()) {
@@ -122,12 +122,12 @@ class Viterbi final : public ModelPlayer<Recognising> {
 
  private:
   Make make() override {
-    return [settings = listening_.recognising()](const SharedModel& model) {
+    return [settings = settings_.recognising()](const SharedModel& model) {
       return std::make_shared<Recognising>(*model, settings);
     };
   }
   void take(const SharedModel& model, Recognising& fresh) override {
-    for (const std::string& unknown : listening_.forget_unknown(*model->model)) {
+    for (const std::string& unknown : settings_.forget_unknown(*model->model)) {
       const std::string line =
           std::string(box().name()) + ": mask: no input '" + unknown + "' in " + model_name();
       say_error(box(), line.c_str());
@@ -140,13 +140,13 @@ class Viterbi final : public ModelPlayer<Recognising> {
 
   // Recognises as the settings say, where the decoder is another.
   void follow_decoder() {
-    if (!playing() || listening_.same_recogniser(playing()->settings)) return;
-    auto fresh = std::make_shared<Recognising>(playing()->model, listening_.recognising());
+    if (!playing() || settings_.same_recogniser(playing()->settings)) return;
+    auto fresh = std::make_shared<Recognising>(playing()->model, settings_.recognising());
     begin(*fresh, *fresh->model.model);
     play(std::move(fresh));
   }
   void begin(Recognising& fresh, const Model& learnt) {
-    listening_.apply(fresh.live, learnt);
+    settings_.apply(fresh.live, learnt);
     message_.reserve(fresh.observation.longest());
     info_.reserve(static_cast<int>(learnt.styles.size()) + 8);
     signal_input_.set_rate(learnt.frame_rate);
@@ -206,7 +206,7 @@ class Viterbi final : public ModelPlayer<Recognising> {
       });
       return;
     }
-    lost_.after(1000 * listening_.timeout());
+    lost_.after(1000 * settings_.timeout());
     if (!streaming_) {
       streaming_ = true;
       told_places_ = 0;
@@ -283,7 +283,7 @@ class Viterbi final : public ModelPlayer<Recognising> {
     tell(false, "stream");
     live().reset();
     sender_.reset();
-    if (const auto seconds = listening_.going_on()) {
+    if (const auto seconds = settings_.going_on()) {
       if (*seconds > 0)
         stop_.after(1000 * *seconds);
       else
@@ -293,7 +293,7 @@ class Viterbi final : public ModelPlayer<Recognising> {
 
   PhaseSignals signals_;
   Outlet message_, info_;
-  Listening listening_;
+  ViterbiSetting settings_;
   SenderClock sender_;
   SignalInput signal_input_{
       box(), [this](double time, std::span<const float> values) { signal_frame(time, values); }};
@@ -319,12 +319,12 @@ void setup_viterbi() {
       .list<&Viterbi::list>()
       .message<&Viterbi::decoder>("decoder")
       .message<&Viterbi::mask>("mask")
-      .message<&Viterbi::set<&Listening::rate>>("rate")
-      .message<&Viterbi::set<&Listening::memory>>("memory")
-      .message<&Viterbi::set<&Listening::margin>>("margin")
-      .message<&Viterbi::set<&Listening::hold>>("hold")
-      .message<&Viterbi::set<&Listening::timeout>>("timeout")
-      .message<&Viterbi::set<&Listening::on_lost>>("onlost")
+      .message<&Viterbi::set<&ViterbiSetting::rate>>("rate")
+      .message<&Viterbi::set<&ViterbiSetting::memory>>("memory")
+      .message<&Viterbi::set<&ViterbiSetting::margin>>("margin")
+      .message<&Viterbi::set<&ViterbiSetting::hold>>("hold")
+      .message<&Viterbi::set<&ViterbiSetting::timeout>>("timeout")
+      .message<&Viterbi::set<&ViterbiSetting::on_lost>>("onlost")
       .message<&Viterbi::resend>("resend")
       .common()
       .dsp();

@@ -1,10 +1,10 @@
 // [gait.pca NAME style]: the style walker's messages.
 #include <map>
 
-#include "cycle_walking.h"
+#include "pca_walking.h"
 #include "gait/error.h"
 #include "gait/play/cycles/style_walker.h"
-#include "style_setting.h"
+#include "pd/style_setting.h"
 
 namespace gait::pd {
 

@@ -1,4 +1,4 @@
-#include "label_setting.h"
+#include "synth_label_setting.h"
 
 namespace gait::pd {
 

@@ -1,8 +1,8 @@
-#include "listening.h"
+#include "viterbi_setting.h"
 
 #include <algorithm>
 
-#include "stream_argument.h"
+#include "pd/stream_argument.h"
 
 namespace gait::pd {
 
@@ -18,7 +18,7 @@ int input_named(const Model& model, const std::string& name) {
 
 }  // namespace
 
-void Listening::decoder(const Arguments& arguments) {
+void ViterbiSetting::decoder(const Arguments& arguments) {
   arguments.expect_count(1, 2);
   const std::string kind = arguments.symbol(0);
   if (kind != "viterbi" && kind != "forward" && kind != "lag")
@@ -30,7 +30,7 @@ void Listening::decoder(const Arguments& arguments) {
                                              : DecoderKind::lag;
 }
 
-void Listening::mask(const Arguments& arguments, const Model* model) {
+void ViterbiSetting::mask(const Arguments& arguments, const Model* model) {
   arguments.expect_count(2);
   const bool there = arguments.flag(1);
   const std::string input = arguments.text(0);
@@ -44,7 +44,7 @@ void Listening::mask(const Arguments& arguments, const Model* model) {
   masks_.push_back({input, there});
 }
 
-void Listening::on_lost(const Arguments& arguments) {
+void ViterbiSetting::on_lost(const Arguments& arguments) {
   arguments.expect_count(1, 2);
   const std::string what = arguments.symbol(0);
   if (what != "walk" && what != "stop") arguments.fail_at(0, "walk or stop");
@@ -56,28 +56,28 @@ void Listening::on_lost(const Arguments& arguments) {
   if (!walks_on_ && !seconds) going_on_ = 0;
 }
 
-void Listening::rate(const Arguments& arguments) {
+void ViterbiSetting::rate(const Arguments& arguments) {
   arguments.expect_count(1);
   rate_ = arguments.number(0, 0, 1000);
 }
-void Listening::memory(const Arguments& arguments) {
+void ViterbiSetting::memory(const Arguments& arguments) {
   arguments.expect_count(1);
   memory_ = static_cast<float>(arguments.number(0, 0, longest));
 }
-void Listening::margin(const Arguments& arguments) {
+void ViterbiSetting::margin(const Arguments& arguments) {
   arguments.expect_count(1);
   margin_ = static_cast<float>(arguments.number(0, 0, 1));
 }
-void Listening::hold(const Arguments& arguments) {
+void ViterbiSetting::hold(const Arguments& arguments) {
   arguments.expect_count(1);
   hold_ = arguments.number(0, 0, longest);
 }
-void Listening::timeout(const Arguments& arguments) {
+void ViterbiSetting::timeout(const Arguments& arguments) {
   arguments.expect_count(1);
   timeout_ = arguments.number(0, 0.02, longest);
 }
 
-std::vector<std::string> Listening::forget_unknown(const Model& model) {
+std::vector<std::string> ViterbiSetting::forget_unknown(const Model& model) {
   std::vector<std::string> unknown;
   for (const Mask& mask : masks_)
     if (mask.input != "all" && input_named(model, mask.input) < 0) unknown.push_back(mask.input);
@@ -87,7 +87,7 @@ std::vector<std::string> Listening::forget_unknown(const Model& model) {
   return unknown;
 }
 
-void Listening::apply(LiveRecogniser& live, const Model& model) const {
+void ViterbiSetting::apply(LiveRecogniser& live, const Model& model) const {
   std::vector<bool> missing(model.inputs.size(), false);
   for (const Mask& mask : masks_) {
     const int input = input_named(model, mask.input);
@@ -103,7 +103,7 @@ void Listening::apply(LiveRecogniser& live, const Model& model) const {
   live.choice().set_hold(hold_);
 }
 
-void Listening::dump(Outlet& info) const {
+void ViterbiSetting::dump(Outlet& info) const {
   if (recognising_.decoder) {
     const DecoderKind kind = *recognising_.decoder;
     info.add(kind == DecoderKind::viterbi   ? "viterbi"

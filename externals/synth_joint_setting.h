@@ -17,7 +17,7 @@
 
 namespace gait::pd {
 
-class StreamSetting {
+class JointSetting {
  public:
   // Takes a `joint` message. `synthesiser` may be null (no model yet): then it is checked when the
   // model comes. Throws Error, with nothing changed, for what cannot be set.

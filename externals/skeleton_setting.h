@@ -23,7 +23,7 @@
 
 namespace gait::pd {
 
-class StageSetting {
+class SkeletonSetting {
  public:
   // Takes one of the messages above and says so; false for any other selector. `stage` may be null
   // (no model yet). Throws Error, with nothing changed, for what cannot be set.

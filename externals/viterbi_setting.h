@@ -11,7 +11,7 @@
 
 namespace gait::pd {
 
-class Listening {
+class ViterbiSetting {
  public:
   // Take a setting. Throw Error, with nothing changed, when it cannot be. `model`: null before it
   // is there.

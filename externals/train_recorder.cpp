@@ -1,4 +1,4 @@
-#include "take_recorder.h"
+#include "train_recorder.h"
 
 #include <fcntl.h>
 #include <m_pd.h>

@@ -1,5 +1,5 @@
 // [gait.pca NAME speed]: the speed walker's messages.
-#include "cycle_walking.h"
+#include "pca_walking.h"
 #include "gait/error.h"
 #include "gait/play/cycles/speed_walker.h"
 

@@ -1,4 +1,4 @@
-#include "joint_argument.h"
+#include "pd/joint_argument.h"
 
 #include <algorithm>
 #include <vector>

@@ -1,4 +1,4 @@
-#include "style_setting.h"
+#include "pd/style_setting.h"
 
 #include <algorithm>
 

@@ -1,9 +1,9 @@
-#include "stream_setting.h"
+#include "synth_joint_setting.h"
 
 #include <algorithm>
 
 #include "gait/error.h"
-#include "joint_argument.h"
+#include "pd/joint_argument.h"
 
 namespace gait::pd {
 
@@ -31,7 +31,7 @@ void check(const Arguments& arguments) {
 
 }  // namespace
 
-void StreamSetting::set(const Arguments& arguments, Synthesiser& synthesiser) {
+void JointSetting::set(const Arguments& arguments, Synthesiser& synthesiser) {
   const int stream = joint_stream(synthesiser.model(), arguments, 0);
   const std::string what = arguments.symbol(1);
   if (what == "free") {
@@ -52,7 +52,7 @@ void StreamSetting::set(const Arguments& arguments, Synthesiser& synthesiser) {
   }
 }
 
-void StreamSetting::take(const Arguments& arguments, Synthesiser* synthesiser) {
+void JointSetting::take(const Arguments& arguments, Synthesiser* synthesiser) {
   check(arguments);
   if (synthesiser) set(arguments, *synthesiser);
   const std::string joint = arguments.text(0), what = arguments.symbol(1);
@@ -62,7 +62,7 @@ void StreamSetting::take(const Arguments& arguments, Synthesiser* synthesiser) {
     said_[{joint, what}].assign(arguments.atoms().begin(), arguments.atoms().end());
 }
 
-void StreamSetting::apply(Synthesiser& synthesiser,
+void JointSetting::apply(Synthesiser& synthesiser,
                           const std::function<void(const char*)>& failed) {
   std::erase_if(said_, [&](const auto& entry) {
     const Message& message = entry.second;
@@ -77,7 +77,7 @@ void StreamSetting::apply(Synthesiser& synthesiser,
   });
 }
 
-void StreamSetting::dump(Outlet& info) const {
+void JointSetting::dump(Outlet& info) const {
   for (const auto& [key, message] : said_) info.add(std::span(message)).send("joint");
 }
 

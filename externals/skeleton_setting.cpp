@@ -1,9 +1,9 @@
-#include "stage_setting.h"
+#include "skeleton_setting.h"
 
 #include <algorithm>
 
 #include "gait/error.h"
-#include "joint_argument.h"
+#include "pd/joint_argument.h"
 
 namespace gait::pd {
 
@@ -16,7 +16,7 @@ constexpr std::array<const char*, 3> roots{"feet", "keep", "still"};
 
 }  // namespace
 
-bool StageSetting::take(const Arguments& arguments, BodyStage* stage) {
+bool SkeletonSetting::take(const Arguments& arguments, BodyStage* stage) {
   if (arguments.selector() == "report")
     take_report(arguments, stage);
   else if (!take_number(arguments))
@@ -25,7 +25,7 @@ bool StageSetting::take(const Arguments& arguments, BodyStage* stage) {
   return true;
 }
 
-bool StageSetting::take_number(const Arguments& arguments) {
+bool SkeletonSetting::take_number(const Arguments& arguments) {
   const auto selector = arguments.selector();
   const auto one = [&](double least, double most) {
     arguments.expect_count(1);
@@ -65,21 +65,21 @@ bool StageSetting::take_number(const Arguments& arguments) {
   return true;
 }
 
-StageSetting::Reported StageSetting::found(const Arguments& arguments, const BodyStage& stage) {
+SkeletonSetting::Reported SkeletonSetting::found(const Arguments& arguments, const BodyStage& stage) {
   Reported joints;
   for (int i = 0; i < arguments.size(); ++i)
     joints.emplace_back(joint_index(stage.model(), arguments, i), arguments.text(i));
   return joints;
 }
 
-void StageSetting::take_report(const Arguments& arguments, const BodyStage* stage) {
+void SkeletonSetting::take_report(const Arguments& arguments, const BodyStage* stage) {
   for (int i = 0; i < arguments.size(); ++i) arguments.text(i);
   if (stage) reported_ = found(arguments, *stage);
   report_.assign(arguments.atoms().begin(), arguments.atoms().end());
 }
 
 // All of them: what did not change changes nothing.
-void StageSetting::set(BodyStage& stage) const {
+void SkeletonSetting::set(BodyStage& stage) const {
   stage.set_root(root_);
   stage.set_lock(lock_);
   stage.set_heading_rate(heading_);
@@ -90,7 +90,7 @@ void StageSetting::set(BodyStage& stage) const {
   stage.set_walking(walking_);
 }
 
-void StageSetting::apply(BodyStage& stage, const std::function<void(const char*)>& failed) {
+void SkeletonSetting::apply(BodyStage& stage, const std::function<void(const char*)>& failed) {
   set(stage);
   try {
     reported_ = found(
@@ -103,7 +103,7 @@ void StageSetting::apply(BodyStage& stage, const std::function<void(const char*)
   }
 }
 
-void StageSetting::dump(Outlet& info) const {
+void SkeletonSetting::dump(Outlet& info) const {
   info.add(roots[static_cast<std::size_t>(root_)]).send("root");
   info.add(lock_ ? 1 : 0).send("lock");
   info.add(heading_).send("heading");

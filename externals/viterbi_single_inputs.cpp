@@ -1,8 +1,8 @@
-#include "single_inputs.h"
+#include "viterbi_single_inputs.h"
 
 #include <array>
 
-#include "stream_argument.h"
+#include "pd/stream_argument.h"
 
 namespace gait::pd {
 

@@ -1,10 +1,10 @@
-#include "signal_input.h"
+#include "viterbi_signal_input.h"
 
 #include <algorithm>
 #include <utility>
 
 #include "gait/error.h"
-#include "multichannel.h"
+#include "pd/multichannel.h"
 
 namespace gait::pd {
 

@@ -1,4 +1,4 @@
-#include "multichannel.h"
+#include "pd/multichannel.h"
 
 #include <dlfcn.h>
 
