@@ -1,5 +1,4 @@
-// [gait.bvh NAME FILE -poly n]: plays captured walks on a model's body, and records what it is
-// given.
+// [gait.bvh NAME FILE -poly n]: plays clips of motion on a model's body, and records motion.
 #include <memory>
 #include <vector>
 
@@ -16,14 +15,14 @@ constexpr int most_voices = 64;
 class Bvh final : public ModelUser {
  public:
   Bvh(Box& box, const Arguments& arguments)
-      : ModelUser(box, is_name(arguments, 0) ? arguments.text(0) : ""),
+      : ModelUser(box, arguments.is_word(0) ? arguments.text(0) : ""),
         cold_(box, this, &take_cold<Bvh>),
         in_(box),
         pose_(box),
         info_(box) {
-    int at = is_name(arguments, 0) ? 1 : 0;
+    int at = arguments.is_word(0) ? 1 : 0;
     std::string clip;
-    if (is_name(arguments, at)) clip = arguments.symbol(at++);
+    if (arguments.is_word(at)) clip = arguments.symbol(at++);
     int voices = 0;
     bool blocking = false;
     for (; at < arguments.size(); ++at) {
@@ -47,7 +46,7 @@ class Bvh final : public ModelUser {
       SETSYMBOL(&atom, gensym(clip.c_str()));
       for (const auto& voice : voices_) voice->message(Arguments(box.name(), "open", 1, &atom));
     }
-    join();
+    join(info_);
   }
 
   void bang(const Arguments&) {
@@ -71,10 +70,6 @@ class Bvh final : public ModelUser {
     for (const auto& voice : voices_) voice->run(on);
   }
   void anything(const Arguments& arguments) {
-    if (arguments.selector() == "perf") {
-      perf().report(info_);
-      return;
-    }
     for (const auto& voice : voices_) one(*voice, arguments);
   }
   void cold(const Arguments& arguments) {
@@ -88,11 +83,6 @@ class Bvh final : public ModelUser {
   }
 
  private:
-  static bool is_name(const Arguments& arguments, int i) {
-    return i < arguments.size() &&
-           !(arguments.is_symbol(i) && arguments.symbol(i).starts_with('-'));
-  }
-
   BvhVoice& voice_of(const Arguments& arguments) {
     return *voices_[arguments.integer(0, 0, static_cast<int>(voices_.size()) - 1)];
   }
@@ -127,7 +117,11 @@ class Bvh final : public ModelUser {
 }  // namespace
 
 void setup_bvh() {
-  Class<Bvh>("gait.bvh").bang<&Bvh::bang>().list<&Bvh::list>().anything<&Bvh::anything>();
+  Class<Bvh>("gait.bvh")
+      .bang<&Bvh::bang>()
+      .list<&Bvh::list>()
+      .message<&Bvh::report_perf>("perf")
+      .anything<&Bvh::anything>();
 }
 
 }  // namespace gait::pd

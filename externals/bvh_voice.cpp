@@ -5,7 +5,8 @@
 #include "gait/corpus/walk_style.h"
 #include "gait/error.h"
 #include "gait/files/bvh.h"
-#include "pd/worker.h"
+#include "pd/files.h"
+#include "pd/voice_message.h"
 
 namespace gait::pd {
 
@@ -14,7 +15,7 @@ namespace {
 constexpr double fastest = 16;        // times, forwards or backwards
 constexpr double longest_loop = 1e6;  // seconds
 
-// Performers that nobody gave a clip walk in different styles.
+// The walk of a performer whose box names no clip: each performer has another style.
 std::string built_in_walk(int number) {
   const auto& styles = corpus_styles();
   const std::size_t voice = number < 0 ? 0 : static_cast<std::size_t>(number);
@@ -26,27 +27,17 @@ std::string built_in_walk(int number) {
 
 BvhVoice::BvhVoice(const Around& around, int number, const std::string& clip)
     : around_(around), number_(number), clip_(clip), implied_(clip.empty()) {
+  background_.set_blocking(around.blocking);
   if (implied_) clip_ = built_in_walk(number);
-}
-
-Outlet& BvhVoice::begin(Outlet& outlet, const char* selector) {
-  if (number_ >= 0) outlet.add(number_).add(selector);
-  return outlet;
-}
-
-void BvhVoice::send(Outlet& outlet, const char* selector) {
-  outlet.send(number_ >= 0 ? "list" : selector);
 }
 
 void BvhVoice::take(const SharedModel& model) {
   auto player = std::make_unique<ClipPlayer>(model->model);
-  auto recorder = std::make_unique<PoseRecorder>(model->model);
+  auto recorder = std::make_unique<BvhRecorder>(model->model);
   const double now = player_ ? player_->frame().time : 0;
   model_ = model;
   player_ = std::move(player);
   recorder_ = std::move(recorder);
-  recording_ = false;
-  given_.resize(3 * model->model->body->skeleton.joints.size());
   clock_.set_period(1000 / model->model->frame_rate);
   player_->set_speed(speed_);
   if (loop_values_ == 2)
@@ -63,8 +54,7 @@ void BvhVoice::take(const SharedModel& model) {
 }
 
 void BvhVoice::say_ready(const std::string& model) {
-  begin(around_.info, "ready").add_text(model);
-  send(around_.info, "ready");
+  to(around_.info, "ready").add_text(model).send();
 }
 
 void BvhVoice::load_clip() {
@@ -72,38 +62,28 @@ void BvhVoice::load_clip() {
 }
 
 void BvhVoice::load(std::function<BodyMotion()> make, bool recording) {
-  const auto loaded = std::make_shared<Loaded>();
-  Worker::get().run(
-      [loaded, make = std::move(make)] {
-        try {
-          loaded->motion = std::make_shared<const BodyMotion>(make());
-        } catch (const std::exception& error) {
-          loaded->reason = error.what();
-        }
-      },
-      [this, alive = std::weak_ptr<bool>(alive_), loaded, recording, number = ++loads_] {
-        if (alive.expired() || number != loads_) return;
-        if (!loaded->motion) {
-          if (implied_ && !recording)
-            return;  // a body of its own has no built-in walk, and that is no error
-          const std::string line = std::string(around_.box.name()) + ": open: " + loaded->reason;
-          say_error(around_.box, line.c_str());
-          return;
-        }
-        for (const std::string& warning : loaded->motion->warnings)
-          logpost(&around_.box, 2, "%s: %s", around_.box.name(), warning.c_str());
-        (recording ? recorded_ : opened_) = loaded->motion;
-        if (!recording) recorded_ = nullptr;
-        play(loaded->motion);
-      },
-      around_.blocking);
+  const int number = ++loads_;
+  background_.run([make = std::move(make)] { return std::make_shared<const BodyMotion>(make()); },
+                  [this, recording, number](std::shared_ptr<const BodyMotion> motion) {
+                    if (number != loads_) return;
+                    for (const std::string& warning : motion->warnings)
+                      logpost(&around_.box, 2, "%s: %s", around_.box.name(), warning.c_str());
+                    (recording ? recorded_ : opened_) = motion;
+                    if (!recording) recorded_ = nullptr;
+                    play(std::move(motion));
+                  },
+                  [this, recording, number](const std::string& reason) {
+                    // A model with a body of its own has no built-in walk: no message asked for
+                    // one.
+                    if (number == loads_ && (recording || !implied_))
+                      complain(around_.box, "open: " + reason);
+                  });
 }
 
 void BvhVoice::play(std::shared_ptr<const BodyMotion> motion) {
   if (!player_->set_motion(std::move(motion))) return;
   go_to(0);
-  begin(around_.info, "length").add(player_->motion()->length());
-  send(around_.info, "length");
+  to(around_.info, "length").add(player_->motion()->length()).send();
 }
 
 void BvhVoice::go_to(double seconds) {
@@ -141,32 +121,26 @@ void BvhVoice::step() {
   } else if (!ended_) {
     ended_ = true;
     clock_.stop();
-    begin(around_.info, "end");
-    send(around_.info, "end");
+    to(around_.info, "end").send();
   }
 }
 
 void BvhVoice::show() {
   const PlayedFrame& frame = player_->frame();
-  begin(around_.info, "time").add(frame.time);
-  send(around_.info, "time");
+  to(around_.info, "time").add(frame.time).send();
   if (frame.label != label_sent_) {
     label_sent_ = frame.label;
-    begin(around_.info, "label");  // without a name between two labels
-    if (frame.label >= 0) around_.info.add_text(player_->motion()->labels[frame.label].label);
-    send(around_.info, "label");
+    VoiceMessage label = to(around_.info, "label");  // without a name between two labels
+    if (frame.label >= 0) label.add_text(player_->motion()->labels[frame.label].label);
+    label.send();
   }
   for (const bool right : {true, false})
     if (right ? frame.right : frame.left) {
-      begin(around_.info, "contact").add(right ? "right" : "left");
-      send(around_.info, "contact");
+      to(around_.info, "contact").add(right ? "right" : "left").send();
     }
-  begin(around_.pose, "root").add(std::span(frame.hips.data(), 3)).add(frame.heading);
-  send(around_.pose, "root");
-  begin(around_.pose, "pose").add(frame.pose);
-  send(around_.pose, "pose");
-  begin(around_.in, "in").add(frame.inputs);
-  send(around_.in, "in");
+  to(around_.pose, "root").add(std::span(frame.hips.data(), 3)).add(frame.heading).send();
+  to(around_.pose, "pose").add(frame.pose).send();
+  to(around_.in, "in").add(frame.inputs).send();
 }
 
 bool BvhVoice::message(const Arguments& arguments) {
@@ -200,16 +174,14 @@ bool BvhVoice::message(const Arguments& arguments) {
   return true;
 }
 
-// The file is looked for on Pd's thread and its paths, read and checked on the worker.
+// Finds the file on Pd's thread, which owns Pd's search path; the worker reads and checks it.
 void BvhVoice::open(const Arguments& arguments) {
   arguments.expect_count(1);
   std::string name = arguments.symbol(0);
   if (!names_demo_motion(name)) {
-    char folder[MAXPDSTRING], *file = nullptr;
-    const int found = canvas_open(around_.canvas, name.c_str(), "", folder, &file, MAXPDSTRING, 1);
-    if (found < 0) arguments.fail("no file '" + name + "' beside the patch or on Pd's path");
-    sys_close(found);
-    name = std::string(folder) + "/" + file;
+    const auto path = find_file(around_.canvas, name);
+    if (!path) arguments.fail(no_file(name));
+    name = *path;
   }
   clip_ = name;
   implied_ = false;
@@ -239,15 +211,10 @@ void BvhVoice::set_rate(const Arguments& arguments) {
 void BvhVoice::record(const Arguments& arguments) {
   arguments.expect_count(1);
   const bool on = arguments.flag(0);
-  if (on == recording_) return;
+  if (on == (recorder_ && recorder_->recording())) return;
   if (!recorder_) arguments.fail("expected after the model is there");
-  recording_ = on;
-  said_full_ = false;
-  if (on) {
-    recorder_->clear();
-    return;
-  }
-  auto recording = std::make_shared<PoseRecorder::Recording>(recorder_->finish());
+  if (on) return recorder_->start();
+  const auto recording = recorder_->stop();
   if (recording->frames() == 0)
     arguments.fail("nothing was recorded: no pose, in or out came in at the right inlet");
   loop_values_ = 1;
@@ -271,60 +238,13 @@ void BvhVoice::write(const Arguments& arguments) {
   arguments.expect_count(1);
   const auto motion = recorded_ ? recorded_ : opened_;
   if (!motion || !model_) arguments.fail("there is no clip to write yet");
-  char path[MAXPDSTRING];
-  canvas_makefilename(around_.canvas, arguments.symbol(0).c_str(), path, MAXPDSTRING);
-  const auto result = std::make_shared<Loaded>();
-  Worker::get().run(
-      [result, motion, model = model_->model, to = std::string(path)] {
-        try {
-          write_bvh(bvh_from_clip(clip_of(*motion, *model->body)), to);
-        } catch (const std::exception& error) {
-          result->reason = error.what();
-        }
+  background_.run(
+      [motion, model = model_->model, to = path_to_write(around_.canvas, arguments.symbol(0))] {
+        write_bvh(bvh_from_clip(clip_of(*motion, *model->body)), to);
+        return to;
       },
-      [this, alive = std::weak_ptr<bool>(alive_), result, to = std::string(path)] {
-        if (alive.expired()) return;
-        if (!result->reason.empty()) {
-          const std::string line = std::string(around_.box.name()) + ": write: " + result->reason;
-          say_error(around_.box, line.c_str());
-          return;
-        }
-        begin(around_.info, "written").add(to);
-        send(around_.info, "written");
-      },
-      around_.blocking);
-}
-
-void BvhVoice::cold(const Arguments& arguments) {
-  const auto selector = arguments.selector();
-  if (selector != "pose" && selector != "in" && selector != "out" && selector != "root")
-    arguments.fail("no such message at the right inlet");
-  if (!recording_) return;
-  if (recorder_->full()) {
-    if (!said_full_)
-      logpost(&around_.box, 1, "%s: the recording is full after %g s; `record 0` keeps it",
-              around_.box.name(), recorder_->frames() / model_->model->frame_rate);
-    said_full_ = true;
-    return;
-  }
-  const Body& body = *model_->model->body;
-  const std::size_t count = selector == "root"  ? 4
-                            : selector == "in"  ? 3 * body.input_joints.size()
-                            : selector == "out" ? 3 * body.output_joints.size()
-                                                : given_.size();
-  const std::span<float> values(given_.data(), count);
-  const double now = clock_gettimesince(0) / 1000;
-  const bool taken =
-      count <= given_.size() && arguments.read(values) &&
-      (selector == "root"  ? recorder_->take_root({values[0], values[1], values[2]}, values[3])
-       : selector == "in"  ? recorder_->take_inputs(values, now)
-       : selector == "out" ? recorder_->take_outputs(values, now)
-                           : recorder_->take_pose(values, now));
-  if (!taken)
-    around_.slow_error.say([&] {
-      return std::string(around_.box.name()) + ": " + std::string(selector) + ": expected " +
-             std::to_string(count) + " numbers, got " + std::to_string(arguments.size());
-    });
+      [this](const std::string& path) { to(around_.info, "written").add(path).send(); },
+      [this](const std::string& reason) { complain(around_.box, "write: " + reason); });
 }
 
 void BvhVoice::print() const {
@@ -336,22 +256,20 @@ void BvhVoice::print() const {
   post("%s: %s, %d frames, %g per second, %d contacts; at %.3f of %.3f s, rate %g%s%s",
        around_.box.name(), motion.name.c_str(), motion.frames(), motion.frame_rate,
        static_cast<int>(motion.contacts.size()), player_->frame().time, motion.length(), speed_,
-       loop_values_ > 0 ? ", in a loop" : "", recording_ ? ", recording" : "");
+       loop_values_ > 0 ? ", in a loop" : "", recorder_->recording() ? ", recording" : "");
 }
 
 void BvhVoice::dump() {
   if (!implied_) {
-    begin(around_.info, "open").add(clip_);
-    send(around_.info, "open");
+    to(around_.info, "open").add(clip_).send();
   }
-  begin(around_.info, "rate").add(speed_);
-  send(around_.info, "rate");
-  begin(around_.info, "loop");
+  to(around_.info, "rate").add(speed_).send();
+  VoiceMessage loop = to(around_.info, "loop");
   if (loop_values_ == 2)
-    around_.info.add(loop_begin_).add(loop_end_);
+    loop.add(loop_begin_).add(loop_end_);
   else
-    around_.info.add(loop_values_);
-  send(around_.info, "loop");
+    loop.add(loop_values_);
+  loop.send();
 }
 
 }  // namespace gait::pd

@@ -1,15 +1,17 @@
-// One performer of [gait.bvh]: a clip that plays, a recording that grows. Alone in its box, or one
-// of several (-poly), whose messages then begin with its number.
+// One performer of [gait.bvh]: plays a clip and records another. It is alone in its box, or one of
+// several (-poly), whose messages then begin with its number.
 #pragma once
 
 #include <functional>
 #include <memory>
 #include <string>
 
+#include "bvh_recorder.h"
 #include "gait/play/clips/clip_player.h"
-#include "gait/play/clips/pose_recorder.h"
+#include "pd/background.h"
 #include "pd/models.h"
 #include "pd/ticker.h"
+#include "pd/voice_message.h"
 
 namespace gait::pd {
 
@@ -26,8 +28,8 @@ class BvhVoice {
     std::function<bool()> ready;  // there is a model to play a frame with
   };
 
-  // `number`: -1 when alone. `clip`: a file, a built-in walk, or empty for whatever built-in walk
-  // fits.
+  // `number`: -1 when alone. `clip`: a file or a built-in walk; empty: the performer's own built-in
+  // walk.
   BvhVoice(const Around& around, int number, const std::string& clip);
 
   void take(const SharedModel& model);
@@ -36,17 +38,14 @@ class BvhVoice {
   void run(bool on);
   // False when it knows no such message. Throws Error when it cannot use it.
   bool message(const Arguments& arguments);
-  // What comes at the right inlet.
-  void cold(const Arguments& arguments);
+  // A message at the right inlet. Only with a model.
+  void cold(const Arguments& arguments) {
+    recorder_->take(arguments, around_.box, around_.slow_error);
+  }
   void print() const;
   void dump();
 
  private:
-  struct Loaded {
-    std::shared_ptr<const BodyMotion> motion;
-    std::string reason;
-  };
-
   void open(const Arguments& arguments);
   void loop(const Arguments& arguments);
   void set_rate(const Arguments& arguments);
@@ -61,28 +60,24 @@ class BvhVoice {
   void go_to(double seconds);
   void step();
   void show();
-  // `selector` first, after the number of a voice among several.
-  Outlet& begin(Outlet& outlet, const char* selector);
-  void send(Outlet& outlet, const char* selector);
+  VoiceMessage to(Outlet& outlet, const char* selector) { return {outlet, number_, selector}; }
 
   Around around_;
   int number_;
   std::string clip_;  // path, or name of a built-in walk
-  bool implied_;      // nobody asked for this clip
+  bool implied_;      // no message and no argument named the clip
   SharedModel model_;
   std::unique_ptr<ClipPlayer> player_;
-  std::unique_ptr<PoseRecorder> recorder_;
+  std::unique_ptr<BvhRecorder> recorder_;
   std::shared_ptr<const BodyMotion> opened_, recorded_;
-  bool recording_ = false, said_full_ = false;
   double speed_ = 1;
   int loop_values_ = 0;  // of the `loop` message: 0 off, 1 everything, 2 from A to B
   double loop_begin_ = 0, loop_end_ = 0;
   bool ended_ = false;
   int label_sent_ = -1;
-  int loads_ = 0;  // asked for; an earlier one that is still under way counts for nothing
-  std::vector<float> given_;
+  int loads_ = 0;  // begun so far; only the last one's clip is played
   Metronome clock_{[this] { bang(); }};
-  std::shared_ptr<bool> alive_ = std::make_shared<bool>(true);
+  Background background_;
 };
 
 }  // namespace gait::pd

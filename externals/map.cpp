@@ -1,11 +1,11 @@
-// [gait.map NAME]: carries the style of what was observed over to the output (T14 §4.2).
+// [gait.map NAME]: maps the style of an observation onto the model's outputs (T14 §4.2).
 #include <algorithm>
 
 #include "gait/play/map/observation_map.h"
 #include "gait/play/map/observation_message.h"
 #include "objects.h"
 #include "pd/model_player.h"
-#include "pd/stream_argument.h"
+#include "pd/named_argument.h"
 
 namespace gait::pd {
 
@@ -25,36 +25,36 @@ class Map final : public ModelPlayer<Mapping> {
   Map(Box& box, const Arguments& arguments)
       : ModelPlayer(box, arguments.size() > 0 ? arguments.text(0) : ""), gauss_(box), info_(box) {
     arguments.expect_count(0, 1);
-    join();
+    join(info_);
   }
 
   void obs(const Arguments& arguments) {
     if (!ready_for_frame()) return;
     if (const char* wrong = map(arguments)) {
       slow_error().say([&] {
-        return std::string(box().name()) + ": obs: " + wrong + ", got " +
-               std::to_string(arguments.size()) + " numbers";
+        return std::string("obs: ") + wrong + ", got " + std::to_string(arguments.size()) +
+               " numbers";
       });
       perf().drop();
       return;
     }
-    const std::shared_ptr<Mapping> playing =
-        this->playing();  // what is sent may come back and change it
-    const ObservationMap& mapped = playing->map;
+    // Messages sent may come back and change what plays here: this one stays until all are sent.
+    const std::shared_ptr<Mapping> mapping = playing();
+    const ObservationMap& mapped = mapping->map;
     info_.add(mapped.distance()).send("distance");
-    gauss_.add(playing->message.lag()).add(mapped.model().output.values);
+    gauss_.add(mapping->message.lag()).add(mapped.model().output.values);
     gauss_.add(mapped.mean()).add(mapped.variance()).send("gauss");
   }
 
   void strength(const Arguments& arguments) {
     arguments.expect_count(1, 2);
     set(arguments, {arguments.size() == 1 ? Setting::strength : Setting::stream_strength,
-                    -1,
+                    "",
                     {static_cast<float>(arguments.number(arguments.size() - 1, -10, 10))}});
   }
   void bias(const Arguments& arguments) {
     if (arguments.size() < 2) arguments.fail("expected an output and what to add to its values");
-    Setting bias{Setting::stream_bias, -1, {}};
+    Setting bias{Setting::stream_bias, "", {}};
     for (int i = 1; i < arguments.size(); ++i)
       bias.values.push_back(static_cast<float>(arguments.number(i)));
     set(arguments, std::move(bias));
@@ -63,7 +63,7 @@ class Map final : public ModelPlayer<Mapping> {
     arguments.expect_count(1);
     const double spread = arguments.number(0, 0, 1000);
     if (spread == 0) arguments.fail_at(0, "a number above 0");
-    set(arguments, {Setting::spread, -1, {static_cast<float>(spread)}});
+    set(arguments, {Setting::spread, "", {static_cast<float>(spread)}});
   }
 
   // To [gait.synth], as it came.
@@ -78,58 +78,49 @@ class Map final : public ModelPlayer<Mapping> {
       return;
     }
     const ObservationMap& map = playing()->map;
-    // All as the map has it, so that nothing is said that another setting has undone.
+    // The map's own values, so that settings which later ones have overwritten are left out.
     const float common = map.streams() > 0 ? map.strength(0) : 1.0f;
     info_.add(common).send("strength");
     for (int stream = 0; stream < map.streams(); ++stream) {
       if (map.strength(stream) != common)
-        tell({Setting::stream_strength, stream, {map.strength(stream)}});
+        tell({Setting::stream_strength, std::to_string(stream), {map.strength(stream)}});
       const std::span<const float> bias = map.bias(stream);
       if (std::ranges::any_of(bias, [](float value) { return value != 0; }))
-        tell({Setting::stream_bias, stream, {bias.begin(), bias.end()}});
+        tell({Setting::stream_bias, std::to_string(stream), {bias.begin(), bias.end()}});
     }
-    tell({Setting::spread, -1, {map.spread()}});
+    tell({Setting::spread, "", {map.spread()}});
   }
-  void report_perf(const Arguments&) { perf().report(info_); }
-  void print(const Arguments&) {
-    if (!playing()) {
-      post("%s: waiting for %s", box().name(), model_name().c_str());
-      return;
-    }
+
+ private:
+  // A setting as its message said it, for the maps of models to come.
+  struct Setting {
+    enum Kind { strength, stream_strength, stream_bias, spread } kind;
+    std::string output;  // name or number; empty: all
+    std::vector<float> values;
+  };
+  static constexpr const char* words[] = {"strength", "strength", "bias", "spread"};
+
+  void describe() override {
     const ObservationMap& map = playing()->map;
     post("%s: maps with %s onto %d outputs, strength of the first %g, spread %g", box().name(),
          model_name().c_str(), map.streams(),
          map.streams() > 0 ? static_cast<double>(map.strength(0)) : 1.0,
          static_cast<double>(map.spread()));
   }
-
- private:
-  // What was told, so that it can be told again to another model's map.
-  struct Setting {
-    enum Kind { strength, stream_strength, stream_bias, spread } kind;
-    int stream;  // -1: all, or named below
-    std::vector<float> values;
-    std::string name{};  // of the stream; empty when it was told by number
-  };
-  static constexpr const char* words[] = {"strength", "strength", "bias", "spread"};
-
   Make make() override {
     return [](const SharedModel& model) { return std::make_shared<Mapping>(*model); };
   }
 
   void take(const SharedModel& model, Mapping& fresh) override {
     std::erase_if(settings_, [&](const Setting& setting) {
-      if (apply(fresh.map, *model->model, setting)) return false;
-      const std::string output =
-          setting.name.empty() ? std::to_string(setting.stream) : setting.name;
-      const std::string line = std::string(box().name()) + ": " + words[setting.kind] +
-                               ": no such output as '" + output + "' in " + model_name();
-      say_error(box(), line.c_str());
+      if (apply(fresh.map, index_said(model->model->outputs, setting.output), setting))
+        return false;
+      complain(box(), std::string(words[setting.kind]) + ": no such output as '" + setting.output +
+                          "' in " + model_name());
       return true;
     });
     gauss_.reserve(2 + 6 * model->model->output.values);
   }
-  void say_ready() override { info_.add_text(model_name()).send("ready"); }
 
   // Null, or what was expected of the message.
   const char* map(const Arguments& arguments) noexcept {
@@ -148,35 +139,31 @@ class Map final : public ModelPlayer<Mapping> {
     return nullptr;
   }
 
-  // Keeps a setting and lets it count at once; before the model is there it is kept.
+  // Keeps a setting, and gives it to the map when there is one.
   void set(const Arguments& arguments, Setting setting) {
     if (setting.kind == Setting::stream_strength || setting.kind == Setting::stream_bias) {
-      if (model())
-        setting.stream = stream_argument(arguments, 0, model()->model->outputs, "output");
-      else if (arguments.is_number(0))
-        setting.stream = arguments.integer(0, 0, 100000);
-      if (arguments.is_symbol(0)) setting.name = arguments.symbol(0);
+      setting.output = arguments.text(0);
+      if (!model() && arguments.is_number(0)) arguments.integer(0, 0, 100000);
     }
-    if (playing() && !apply(playing()->map, *model()->model, setting))
-      arguments.fail("expected " + std::to_string(model()->model->outputs[setting.stream].size) +
-                     " finite numbers after the output");
+    if (model()) {
+      const std::vector<Stream>& outputs = model()->model->outputs;
+      const int stream =
+          setting.output.empty() ? -1 : named_argument(arguments, 0, outputs, "output");
+      if (!apply(playing()->map, stream, setting))
+        arguments.fail("expected " +
+                       std::to_string(outputs[static_cast<std::size_t>(stream)].size) +
+                       " finite numbers after the output");
+    }
     std::erase_if(settings_, [&](const Setting& old) {
       return setting.kind == Setting::strength
                  ? old.kind == Setting::strength || old.kind == Setting::stream_strength
-                 : old.kind == setting.kind && old.stream == setting.stream &&
-                       old.name == setting.name;
+                 : old.kind == setting.kind && old.output == setting.output;
     });
     settings_.push_back(std::move(setting));
   }
 
-  // False when this model has no such output, or one of another size.
-  static bool apply(ObservationMap& map, const Model& model, const Setting& setting) {
-    int stream = setting.stream;
-    if (!setting.name.empty()) {
-      stream = -1;
-      for (std::size_t i = 0; i < model.outputs.size(); ++i)
-        if (model.outputs[i].name == setting.name) stream = static_cast<int>(i);
-    }
+  // False when the map has no such output, or one of another size.
+  static bool apply(ObservationMap& map, int stream, const Setting& setting) {
     switch (setting.kind) {
       case Setting::strength:
         return map.set_strength(setting.values[0]);
@@ -190,10 +177,7 @@ class Map final : public ModelPlayer<Mapping> {
   }
 
   void tell(const Setting& setting) {
-    if (!setting.name.empty())
-      info_.add(setting.name);
-    else if (setting.stream >= 0)
-      info_.add(setting.stream);
+    if (!setting.output.empty()) info_.add_text(setting.output);
     info_.add(std::span<const float>(setting.values)).send(words[setting.kind]);
   }
 

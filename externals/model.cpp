@@ -1,31 +1,27 @@
-// [gait.model NAME FILE]: owns a model by name; others of that name listen.
-#include <filesystem>
-#include <fstream>
+// [gait.model NAME FILE]: reads a model and gives it to all boxes of its name.
+#include <cstdint>
+#include <string>
 
 #include "gait/corpus/demo_model.h"
-#include "gait/error.h"
-#include "gait/model/model_file.h"
 #include "objects.h"
-#include "pd/models.h"
-#include "pd/worker.h"
+#include "pd/model_owner.h"
 
 namespace gait::pd {
 
 namespace {
 
-class ModelBox final : public ModelUser {
+class ModelBox final : public ModelOwner {
  public:
   ModelBox(Box& box, const Arguments& arguments)
-      : ModelUser(box, arguments.size() > 0 && !is_flag(arguments, 0) ? arguments.text(0) : ""),
+      : ModelOwner(box, arguments.is_word(0) ? arguments.text(0) : "", info_),
         ready_(box),
-        info_(box),
-        canvas_(canvas_getcurrent()) {
-    int at = arguments.size() > 0 && !is_flag(arguments, 0) ? 1 : 0;
+        info_(box) {
+    int at = arguments.is_word(0) ? 1 : 0;
     std::string file;
-    if (at < arguments.size() && !is_flag(arguments, at)) file = arguments.symbol(at++);
+    if (arguments.is_word(at)) file = arguments.symbol(at++);
     for (; at < arguments.size(); ++at) {
       if (arguments.symbol(at) != "-blocking") arguments.fail_at(at, "-blocking");
-      blocking_ = true;
+      background().set_blocking(true);
     }
     bound_ = gensym(
         ("gait.model dialog " + std::to_string(reinterpret_cast<std::uintptr_t>(this))).c_str());
@@ -34,7 +30,7 @@ class ModelBox final : public ModelUser {
       read_file(file);
     else if (model_name() == demo_model_name && !Models::get().find(model_name()))
       load(load_demo_model);
-    join();
+    join(info_);
   }
   ~ModelBox() override { pd_unbind(box().pd(), bound_); }
 
@@ -51,45 +47,24 @@ class ModelBox final : public ModelUser {
     if (arguments.size() == 1)
       read_file(arguments.symbol(0));
     else
-      sys_vgui("pdtk_openpanel {%s} {%s}\n", bound_->s_name, canvas_getdir(canvas_)->s_name);
+      sys_vgui("pdtk_openpanel {%s} {%s}\n", bound_->s_name, canvas_getdir(patch())->s_name);
   }
-  // What the file dialog sends.
+  // The file dialog's answer.
   void callback(const Arguments& arguments) { read_file(arguments.symbol(0)); }
 
-  void reload(const Arguments&) {
+  void reload(const Arguments& arguments) {
     if (!file_.empty())
       load([path = file_] { return load_model(path); });
     else if (model_name() == demo_model_name)
       load(load_demo_model);
     else
-      throw Error("gait.model: reload: expected after a file was read");
+      arguments.fail("expected after a file was read");
   }
 
   void write(const Arguments& arguments) {
     arguments.expect_count(1);
-    if (!model()) throw Error("gait.model: write: there is no model to write yet");
-    char path[MAXPDSTRING];
-    canvas_makefilename(canvas_, arguments.symbol(0).c_str(), path, MAXPDSTRING);
-    struct Result {
-      std::string reason;
-    };
-    const auto result = std::make_shared<Result>();
-    Worker::get().run(
-        [result, to = std::string(path), what = model()->model] {
-          try {
-            write_model(*what, to);
-          } catch (const std::exception& error) {
-            result->reason = error.what();
-          }
-        },
-        [this, alive = std::weak_ptr<bool>(alive_), result, to = std::string(path)] {
-          if (alive.expired()) return;
-          if (result->reason.empty())
-            info_.add(to).send("written");
-          else
-            failed("write: " + result->reason);
-        },
-        blocking_);
+    if (!model()) arguments.fail("there is no model to write yet");
+    write_file(arguments.symbol(0), model()->model);
   }
 
   void get(const Arguments& arguments) {
@@ -97,7 +72,7 @@ class ModelBox final : public ModelUser {
     const std::string what = arguments.symbol(0);
     for (const char* known : questions)
       if (what == known) {
-        if (!model()) throw Error("gait.model: get: there is no model yet");
+        if (!model()) arguments.fail("there is no model yet");
         answer(known);
         return;
       }
@@ -110,8 +85,6 @@ class ModelBox final : public ModelUser {
   void dump(const Arguments&) {
     if (!file_.empty()) info_.add(file_).send("read");
   }
-  void unknown(const Arguments& arguments) { arguments.fail("no such message"); }
-  void report_perf(const Arguments&) { perf().report(info_); }
   void print(const Arguments&) {
     if (!model()) {
       post("gait.model: %s is not there yet", model_name().c_str());
@@ -128,40 +101,17 @@ class ModelBox final : public ModelUser {
   static constexpr const char* questions[] = {"joints", "inputs", "outputs", "parents", "styles",
                                               "labels", "sizes",  "obs",     "rate",    "engines"};
 
-  static bool is_flag(const Arguments& arguments, int i) {
-    return arguments.is_symbol(i) && arguments.symbol(i).starts_with('-');
-  }
-
   void say_ready() override {
-    info_.add_text(model_name()).send("ready");
+    ModelUser::say_ready();
     ready_.bang();
   }
 
-  void failed(const std::string& reason) {
-    const std::string line = "gait.model: " + reason;
-    say_error(box(), line.c_str());
-    info_.add(reason).send("failed");
-  }
-
-  void load(std::function<SharedModel()> make) {
-    Models::get().load(model_name(), std::move(make), blocking_,
-                       [this, alive = std::weak_ptr<bool>(alive_)](const std::string& reason) {
-                         if (!alive.expired()) failed(reason);
-                       });
-  }
-
-  // The file is looked for on Pd's thread and its paths, read and checked on the worker.
+  // Finds the file on Pd's thread, which owns Pd's search path; the worker reads and checks it.
   void read_file(const std::string& name) {
-    char folder[MAXPDSTRING], *file = nullptr;
-    const int found = canvas_open(canvas_, name.c_str(), "", folder, &file, MAXPDSTRING, 1);
-    if (found < 0) {
-      failed("read: no file '" + name + "' beside the patch or on Pd's path");
-      return;
-    }
-    sys_close(found);
-    const std::string path = std::string(folder) + "/" + file;
-    load([this_file = path] { return load_model(this_file); });
-    file_ = path;
+    const auto path = find_file(patch(), name);
+    if (!path) return failed("read: " + no_file(name));
+    load([path] { return load_model(*path); });
+    file_ = *path;
   }
 
   void answer(const std::string& what) {
@@ -204,11 +154,8 @@ class ModelBox final : public ModelUser {
   }
 
   Outlet ready_, info_;
-  const t_glist* canvas_;
-  t_symbol* bound_ = nullptr;
-  bool blocking_ = false;
-  std::string file_;
-  std::shared_ptr<bool> alive_ = std::make_shared<bool>(true);
+  t_symbol* bound_ = nullptr;  // the file dialog's answer comes to this name
+  std::string file_;           // read last
 };
 
 }  // namespace
@@ -222,7 +169,7 @@ void setup_model() {
       .message<&ModelBox::write>("write")
       .message<&ModelBox::get>("get")
       .common()
-      .anything<&ModelBox::unknown>();
+      .refuse_others();
 }
 
 }  // namespace gait::pd

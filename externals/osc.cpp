@@ -1,4 +1,5 @@
-// [gait.osc NAME -poly n]: live motion from suits, cameras and phones in, bodies to avatars out.
+// [gait.osc NAME -poly n]: receives live motion from suits, cameras and phones, and sends bodies to
+// avatars.
 #include <memory>
 #include <optional>
 #include <string>
@@ -17,18 +18,18 @@ namespace gait::pd {
 namespace {
 
 constexpr int most_voices = 64;
-constexpr double poll_interval = 1;  // ms; arrivals wait so long and a scheduler's tick at most
-constexpr int most_events_a_poll = 4096;  // a flood must not stop the music
+constexpr double poll_interval = 1;       // ms: arrivals wait for at most this and a tick of Pd's
+constexpr int most_events_a_poll = 4096;  // so that a flood of packets does not block Pd
 
 class Osc final : public ModelUser, osc::FrameSink {
  public:
   Osc(Box& box, const Arguments& arguments)
-      : ModelUser(box, is_name(arguments) ? arguments.text(0) : ""),
+      : ModelUser(box, arguments.is_word(0) ? arguments.text(0) : ""),
         in_(box),
         pose_(box),
         info_(box),
         receivers_(box) {
-    for (int at = is_name(arguments) ? 1 : 0; at < arguments.size(); ++at) {
+    for (int at = arguments.is_word(0) ? 1 : 0; at < arguments.size(); ++at) {
       const std::string flag = arguments.symbol(at);
       if (flag == "-poly")
         count_ = arguments.integer(++at, 1, most_voices);
@@ -37,7 +38,7 @@ class Osc final : public ModelUser, osc::FrameSink {
       else
         arguments.fail_at(at, "-poly n or -blocking");
     }
-    join();
+    join(info_);
   }
 
   void message(const Arguments& arguments) {
@@ -60,18 +61,10 @@ class Osc final : public ModelUser, osc::FrameSink {
       set(arguments, settings_.hold, 0.01, 60);
     else if (selector == "smooth")
       set(arguments, settings_.smooth, 0, 60);
-    else if (selector == "reset")
-      reset();
-    else if (selector == "print")
-      print();
-    else if (selector == "dump")
-      dump();
-    else if (selector == "perf")
-      report_perf();
     else
       arguments.fail("no such message");
   }
-  // Of several performers, what is for one comes after his number.
+  // With -poly, a message to one performer begins with the performer's number.
   void list(const Arguments& arguments) {
     if (count_ == 0 || !arguments.is_symbol(1)) arguments.fail("no such message");
     const int voice = arguments.integer(0, 0, count_ - 1);
@@ -88,12 +81,49 @@ class Osc final : public ModelUser, osc::FrameSink {
       message.fail("expected pose, root, calibrate or to after a performer's number");
   }
 
- private:
-  static bool is_name(const Arguments& arguments) {
-    return arguments.size() > 0 &&
-           !(arguments.is_symbol(0) && arguments.symbol(0).starts_with('-'));
+  void report_perf(const Arguments& arguments) {
+    latency_.report(info_);
+    ModelUser::report_perf(arguments);
   }
 
+  void reset(const Arguments&) {
+    settle_dropped();
+    for (const auto& voice : voices_) voice->reset();
+    if (gatherer_) gatherer_.emplace(std::max(1, count_));
+    counted_ = count_dropped();
+  }
+
+  void print(const Arguments&) {
+    if (!receiver_) {
+      post("%s: listens to nobody, sends to %d", box().name(), receivers_.count());
+      return;
+    }
+    const osc::Received received = receiver_->received();
+    post(
+        "%s: port %d%s, %.0f packets, %.0f messages, %.0f of no body, %.0f faulty, %.0f dropped; "
+        "sends to %d",
+        box().name(), receiver_->port(), listening_.any ? " from anywhere" : "",
+        static_cast<double>(received.packets), static_cast<double>(received.messages),
+        static_cast<double>(received.unknown), static_cast<double>(received.faulty),
+        static_cast<double>(received.dropped), receivers_.count());
+  }
+
+  void dump(const Arguments&) {
+    if (receiver_) {
+      info_.add(receiver_->port());
+      if (listening_.any) info_.add("any");
+      if (listening_.form != osc::MocapForm::none)
+        info_.add(std::string(osc::form_name(listening_.form)));
+      info_.send("listen");
+    }
+    receivers_.dump(info_);
+    info_.add(settings_.yaw).send("yaw");
+    info_.add(settings_.jitter).send("jitter");
+    info_.add(settings_.hold).send("hold");
+    info_.add(settings_.smooth).send("smooth");
+  }
+
+ private:
   void follow(const SharedModel& shared) override {
     std::vector<std::shared_ptr<OscVoice>> voices;
     for (int i = 0; i < std::max(1, count_); ++i) {
@@ -107,7 +137,6 @@ class Osc final : public ModelUser, osc::FrameSink {
     for (Outlet* outlet : {&in_, &pose_, &info_})
       outlet->reserve(std::max(receivers_.expected("pose"), values_of(shared->model->inputs)) + 8);
   }
-  void say_ready() override { info_.add_text(model_name()).send("ready"); }
 
   void listen(const Arguments& arguments) {
     arguments.expect_count(1, 3);
@@ -153,22 +182,22 @@ class Osc final : public ModelUser, osc::FrameSink {
   }
 
   void end_streams() {
-    const auto voices = voices_;  // what is said may change them
+    const auto voices = voices_;  // a message sent may come back and change them
     for (const auto& voice : voices) voice->end(info_);
   }
 
-  // All performers, or the one.
+  // Of all performers, or of the one with the number `only`.
   void calibrate(const Arguments& arguments, int only) {
     arguments.expect_count(1);
     const std::string pose = arguments.symbol(0);
     if (pose != "t" && pose != "i") arguments.fail_at(0, "t or i");
-    bool somebody = false;
+    bool found = false;
     for (int i = 0; i < static_cast<int>(voices_.size()); ++i)
       if ((only < 0 || i == only) &&
           voices_[static_cast<std::size_t>(i)]->calibrate(
               pose == "t" ? CalibrationPose::t : CalibrationPose::i, osc::Receiver::now()))
-        somebody = true;
-    if (!somebody) arguments.fail("expected a performer who is there; nobody sends");
+        found = true;
+    if (!found) arguments.fail("expected a performer who is there; nobody sends");
   }
 
   void set(const Arguments& arguments, double& setting, double least, double most) {
@@ -182,12 +211,11 @@ class Osc final : public ModelUser, osc::FrameSink {
     const Perf::Frame measured(perf());
     if (receivers_.take(arguments, voice)) {
       if (receivers_.take_failure())
-        slow_error().say(
-            [&] { return std::string(box().name()) + ": to: the network did not take a body"; });
+        slow_error().say([] { return "to: the network did not take a body"; });
       return;
     }
     slow_error().say([&] {
-      return std::string(box().name()) + ": " + std::string(arguments.selector()) + ": expected " +
+      return std::string(arguments.selector()) + ": expected " +
              std::to_string(receivers_.expected(arguments.selector())) + " numbers, got " +
              std::to_string(arguments.size());
     });
@@ -208,8 +236,8 @@ class Osc final : public ModelUser, osc::FrameSink {
     if (!receiver_) return;
     const double now = osc::Receiver::now();
     gatherer_->end_old(now, *this);
-    // What is sent may come back here as any message, even as another model: a voice lives until it
-    // has said all.
+    // A message sent may come back as any message to this box, even with another model. So this
+    // keeps each voice alive until it has sent all its messages.
     for (std::size_t i = 0; i < voices_.size(); ++i) {
       const std::shared_ptr<OscVoice> voice = voices_[i];
       voice->release(now, in_, pose_, info_, perf(), latency_);
@@ -226,14 +254,14 @@ class Osc final : public ModelUser, osc::FrameSink {
     const auto more = dropped_ - before;
     told_dropped_ = dropped_;
     slow_error().say([&] {
-      return std::string(box().name()) + ": " + std::to_string(more) +
+      return std::to_string(more) +
              " events were dropped: faulty, of performers beyond the number asked for, of another "
              "model, or too many at once";
     });
     info_.add(static_cast<double>(dropped_)).send("dropped");
   }
 
-  // What was dropped, by all who count now.
+  // Events dropped, as the receiver, the gatherer and the voices that there are now have counted.
   std::uint64_t count_dropped() const {
     std::uint64_t count = 0;
     if (receiver_) {
@@ -244,53 +272,12 @@ class Osc final : public ModelUser, osc::FrameSink {
     for (const auto& voice : voices_) count += static_cast<std::uint64_t>(voice->dropped());
     return count;
   }
-  // Before one of them begins anew (counted_ is set again after that), or to tell it.
+  // Adds to dropped_ what they counted since the last call. To be called before one of them is
+  // replaced, whose counter then begins at 0; counted_ is to be set after that.
   void settle_dropped() {
     const std::uint64_t count = count_dropped();
     dropped_ += count - counted_;
     counted_ = count;
-  }
-
-  void report_perf() {
-    latency_.report(info_);
-    perf().report(info_);
-  }
-
-  void reset() {
-    settle_dropped();
-    for (const auto& voice : voices_) voice->reset();
-    if (gatherer_) gatherer_.emplace(std::max(1, count_));
-    counted_ = count_dropped();
-  }
-
-  void print() {
-    if (!receiver_) {
-      post("%s: listens to nobody, sends to %d", box().name(), receivers_.count());
-      return;
-    }
-    const osc::Received received = receiver_->received();
-    post(
-        "%s: port %d%s, %.0f packets, %.0f messages, %.0f of no body, %.0f faulty, %.0f dropped; "
-        "sends to %d",
-        box().name(), receiver_->port(), listening_.any ? " from anywhere" : "",
-        static_cast<double>(received.packets), static_cast<double>(received.messages),
-        static_cast<double>(received.unknown), static_cast<double>(received.faulty),
-        static_cast<double>(received.dropped), receivers_.count());
-  }
-
-  void dump() {
-    if (receiver_) {
-      info_.add(receiver_->port());
-      if (listening_.any) info_.add("any");
-      if (listening_.form != osc::MocapForm::none)
-        info_.add(std::string(osc::form_name(listening_.form)));
-      info_.send("listen");
-    }
-    receivers_.dump(info_);
-    info_.add(settings_.yaw).send("yaw");
-    info_.add(settings_.jitter).send("jitter");
-    info_.add(settings_.hold).send("hold");
-    info_.add(settings_.smooth).send("smooth");
   }
 
   Outlet in_, pose_, info_;
@@ -309,6 +296,6 @@ class Osc final : public ModelUser, osc::FrameSink {
 
 }  // namespace
 
-void setup_osc() { Class<Osc>("gait.osc").list<&Osc::list>().anything<&Osc::message>(); }
+void setup_osc() { Class<Osc>("gait.osc").list<&Osc::list>().common().anything<&Osc::message>(); }
 
 }  // namespace gait::pd

@@ -1,4 +1,5 @@
-// How long what arrived waits until it leaves: percentiles over the frames since it was asked last.
+// The time from a frame's arrival to its leaving: percentiles over the frames since the last
+// report.
 #pragma once
 
 #include <algorithm>

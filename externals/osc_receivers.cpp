@@ -4,7 +4,6 @@
 #include <span>
 
 #include "gait/error.h"
-#include "pd/worker.h"
 
 namespace gait::pd {
 
@@ -32,40 +31,31 @@ void OscReceivers::to(const Arguments& arguments, int performer) {
   if (std::ranges::any_of(receivers_, [&](const Receiver& known) { return known.is(wanted); }))
     return;
   if (count() == most) arguments.fail("expected at most 16 receivers; `to` alone forgets them");
-  const auto found = std::make_shared<Found>();
-  Worker::get().run(
-      [found, wanted] {
-        try {
-          found->destination = std::make_shared<const osc::Destination>(wanted.host, wanted.port);
-        } catch (const std::exception& error) {
-          found->reason = error.what();
-        }
+  using Found = std::shared_ptr<const osc::Destination>;
+  const auto current = [this, lookups = lookups_] { return lookups == lookups_; };
+  background_.run(
+      [wanted] { return std::make_shared<const osc::Destination>(wanted.host, wanted.port); },
+      [this, wanted, current](Found found) {
+        if (current()) add(wanted, std::move(found));
       },
-      [this, alive = std::weak_ptr<bool>(alive_), found, wanted, lookups = lookups_]() mutable {
-        if (!alive.expired() && lookups == lookups_) add(std::move(wanted), *found);
-      },
-      blocking_);
+      [this, current](const std::string& reason) {
+        if (current()) complain(box_, "to: " + reason);
+      });
 }
 
-void OscReceivers::add(Receiver receiver, const Found& found) {
-  std::string reason = found.reason;
-  // Asked for twice or too often before the first was found.
+void OscReceivers::add(Receiver receiver, std::shared_ptr<const osc::Destination> found) {
+  // The same receiver, or too many, may have been asked for before the first one was found.
   const bool known =
       std::ranges::any_of(receivers_, [&](const Receiver& other) { return other.is(receiver); });
   if (known || count() == most) return;
-  if (found.destination) {
-    receiver.destination = found.destination;
-    receivers_.push_back(std::move(receiver));
-    try {
-      senders_ = senders_for(model_);
-      return;
-    } catch (const std::exception& error) {
-      receivers_.pop_back();
-      reason = error.what();
-    }
+  receiver.destination = std::move(found);
+  receivers_.push_back(std::move(receiver));
+  try {
+    senders_ = senders_for(model_);
+  } catch (const std::exception& error) {
+    receivers_.pop_back();
+    complain(box_, std::string("to: ") + error.what());
   }
-  const std::string line = std::string(box_.name()) + ": to: " + reason;
-  say_error(box_, line.c_str());
 }
 
 std::vector<osc::BodySender> OscReceivers::senders_for(

@@ -9,6 +9,7 @@
 #include <vector>
 
 #include "gait/osc/body_sender.h"
+#include "pd/background.h"
 #include "pd/outlet.h"
 
 namespace gait::pd {
@@ -17,23 +18,23 @@ class OscReceivers {
  public:
   explicit OscReceivers(Box& box) : box_(box) {}
   // Names are looked up at once, on this thread.
-  void set_blocking() noexcept { blocking_ = true; }
+  void set_blocking() { background_.set_blocking(true); }
 
-  // `to HOST PORT FORM` adds a receiver, `to` alone forgets them all. `performer`: whose bodies it
-  // gets, -1: everybody's. A name is looked up on the worker, for it may take seconds.
+  // `to HOST PORT FORM` adds a receiver, `to` alone removes them all. `performer`: the one whose
+  // bodies it gets, -1: those of all. The worker looks a name up, which may take seconds.
   void to(const Arguments& arguments, int performer);
-  // Whose bodies are sent from now on, and of how many performers. Throws Error when a form that is
-  // sent cannot tell the model's body; nothing has changed then.
+  // Sends bodies of this model from now on, of so many performers. Throws Error, with nothing
+  // changed, when a receiver's form cannot carry the model's body.
   void use(std::shared_ptr<const Model> model, int performers);
-  // `root` and `pose` of a performer. Neither allocates nor throws. False: another count of numbers
-  // than expected().
+  // Takes `root` or `pose` of a performer; a pose is sent. Neither allocates nor throws. False: the
+  // count of numbers is not expected().
   bool take(const Arguments& arguments, int performer) noexcept;
   int expected(std::string_view selector) const noexcept;
   // Whether the system has refused a packet since this was asked last.
   bool take_failure() noexcept { return std::exchange(failed_, false); }
 
   int count() const noexcept { return static_cast<int>(receivers_.size()); }
-  // The messages that make it so again.
+  // The messages that restore the receivers.
   void dump(Outlet& info) const;
 
  private:
@@ -48,23 +49,18 @@ class OscReceivers {
              performer == other.performer;
     }
   };
-  struct Found {
-    std::shared_ptr<const osc::Destination> destination;
-    std::string reason;
-  };
   std::vector<osc::BodySender> senders_for(const std::shared_ptr<const Model>& model) const;
-  void add(Receiver receiver, const Found& found);
+  void add(Receiver receiver, std::shared_ptr<const osc::Destination> found);
 
   Box& box_;
-  bool blocking_ = false;
   std::shared_ptr<const Model> model_;
   std::vector<Receiver> receivers_;
   std::vector<osc::BodySender> senders_;  // one for each form that is sent
   std::array<std::shared_ptr<const osc::Destination>, most> to_;
   std::vector<float> pose_, roots_;  // of one performer, of all
   bool failed_ = false;
-  int lookups_ = 0;  // those begun before all were forgotten count for nothing
-  std::shared_ptr<bool> alive_ = std::make_shared<bool>(true);
+  int lookups_ = 0;  // `to` alone raises it: look-ups begun before that add nothing
+  Background background_;
 };
 
 }  // namespace gait::pd

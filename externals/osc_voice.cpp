@@ -63,13 +63,12 @@ void OscVoice::end(Outlet& info) {
   flowing_ = false;
   if (!said_flowing_) return;
   said_flowing_ = false;
-  begin(info, "stream").add(0);
-  send(info, "stream");
+  to(info, "stream").add(0).send();
 }
 
 void OscVoice::take(const osc::CapturedFrame& frame) noexcept {
   if (frame.sender != sender_ || frame.stream != stream_ || frame.form != form_) {
-    // The same program may open another port for every take: what was calibrated holds on.
+    // The same program may open another port for every take: the calibration holds on.
     const bool same_performer =
         frame.form == form_ && frame.stream == stream_ && frame.sender >> 16 == sender_ >> 16;
     if (same_performer)
@@ -98,21 +97,11 @@ void OscVoice::take(const osc::CapturedFrame& frame) noexcept {
   ++counted_;
 }
 
-Outlet& OscVoice::begin(Outlet& outlet, const char* selector) {
-  if (number_ >= 0) outlet.add(number_).add(selector);
-  return outlet;
-}
-
-void OscVoice::send(Outlet& outlet, const char* selector) {
-  outlet.send(number_ >= 0 ? "list" : selector);
-}
-
 void OscVoice::send_masks(Outlet& in, std::span<const float> there) {
   for (std::size_t i = 0; i < there.size(); ++i) {
     if ((there[i] != 0) == there_[i]) continue;
     there_[i] = !there_[i];
-    begin(in, "mask").add(model_->inputs[i].name).add(there_[i] ? 1 : 0);
-    send(in, "mask");
+    to(in, "mask").add(model_->inputs[i].name).add(there_[i] ? 1 : 0).send();
   }
 }
 
@@ -121,10 +110,8 @@ void OscVoice::send_sender(Outlet& info) {
   char name[64];
   std::snprintf(name, sizeof name, "%u.%u.%u.%u:%u", address >> 24, address >> 16 & 255,
                 address >> 8 & 255, address & 255, static_cast<unsigned>(sender_ & 65535));
-  info.add(std::max(0, number_)).add(name);
-  info.send("performer");
-  begin(info, "form").add(std::string(osc::form_name(form_)));
-  send(info, "form");
+  info.add(std::max(0, number_)).add(name).send("performer");
+  to(info, "form").add(std::string(osc::form_name(form_))).send();
 }
 
 void OscVoice::release(double now, Outlet& in, Outlet& pose, Outlet& info, Perf& perf,
@@ -140,18 +127,14 @@ void OscVoice::release(double now, Outlet& in, Outlet& pose, Outlet& info, Perf&
   if (!said_flowing_) {
     said_flowing_ = true;
     rate_from_ = 0;
-    begin(info, "stream").add(1);
-    send(info, "stream");
+    to(info, "stream").add(1).send();
   }
   if (frame[0] != 0 && pose_ > 0) {
-    begin(pose, "root").add(frame.subspan(1, 4));
-    send(pose, "root");
-    begin(pose, "pose").add(frame.subspan(head + there_.size() + inputs_));
-    send(pose, "pose");
+    to(pose, "root").add(frame.subspan(1, 4)).send();
+    to(pose, "pose").add(frame.subspan(head + there_.size() + inputs_)).send();
   }
   send_masks(in, frame.subspan(head, there_.size()));
-  begin(in, "in").add(frame.subspan(head + there_.size(), inputs_));
-  send(in, "in");
+  to(in, "in").add(frame.subspan(head + there_.size(), inputs_)).send();
 }
 
 void OscVoice::report(double now, Outlet& info) {
@@ -166,8 +149,7 @@ void OscVoice::report(double now, Outlet& info) {
     rate_from_ = last_;
     counted_ = 0;
   } else if (last_ - rate_from_ >= 1) {
-    begin(info, "rate").add(counted_ / (last_ - rate_from_));
-    send(info, "rate");
+    to(info, "rate").add(counted_ / (last_ - rate_from_)).send();
     rate_from_ = last_;
     counted_ = 0;
   }

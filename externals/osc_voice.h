@@ -1,5 +1,5 @@
-// One performer of [gait.osc]: what came of him, brought to the model's body, waits here until it
-// is due and leaves as messages.
+// One performer of [gait.osc]: brings captured frames to the model's body, holds them until they
+// are due (jitter), and sends them as messages.
 #pragma once
 
 #include <memory>
@@ -12,10 +12,11 @@
 #include "osc_latency.h"
 #include "pd/outlet.h"
 #include "pd/perf.h"
+#include "pd/voice_message.h"
 
 namespace gait::pd {
 
-// What messages set, for all performers.
+// Settings of all performers.
 struct OscSettings {
   double yaw = 0;     // degrees
   double jitter = 0;  // ms
@@ -29,30 +30,30 @@ class OscVoice {
   OscVoice(std::shared_ptr<const Model> model, int number, const OscSettings& settings);
 
   void set(const OscSettings& settings);
-  // The next frame is that pose, unless it is late. False, with nothing changed, while nobody
-  // sends.
+  // Takes the next frame for that pose, unless it comes late. False, with nothing changed, while no
+  // frames come.
   bool calibrate(CalibrationPose pose, double now);
   void reset();
-  // The same performer as that one, of another model: calibrated as he was, what was told is told.
+  // Continues another voice, of the same performer on another model, with its calibration. Messages
+  // that it has sent are not sent again.
   void take_over(const OscVoice& before);
 
   // From the gatherer, on Pd's thread; sends nothing.
   void take(const osc::CapturedFrame& frame) noexcept;
-  // Sends a frame if one is due: one at a time, for who takes it tells frames apart by when they
-  // come, and a network may hand over several at once. `now`: seconds on the clock of arrivals.
-  // `latency`: from a frame's arrival to its leaving.
+  // Sends a frame if one is due. It sends one at a time, because receivers tell frames apart by
+  // their times, and a network may deliver several at once. `now`: seconds on the clock of
+  // arrivals. `latency` gets the time from the frame's arrival to its leaving.
   void release(double now, Outlet& in, Outlet& pose, Outlet& info, Perf& perf, Latency& latency);
-  // A tick of the clock: whether the stream flows, at what rate.
+  // At every tick: sends `rate` once a second, and `stream 0` when the stream has ended.
   void report(double now, Outlet& info);
-  // Nobody listens to him any longer.
+  // Ends the stream: [gait.osc] listens to it no longer.
   void end(Outlet& info);
   // Frames of values of another count than the model's, and those the jitter buffer had no room
   // for.
   int dropped() const { return unfit_ + waiting_.lost(); }
 
  private:
-  Outlet& begin(Outlet& outlet, const char* selector);
-  void send(Outlet& outlet, const char* selector);
+  VoiceMessage to(Outlet& outlet, const char* selector) { return {outlet, number_, selector}; }
   void send_masks(Outlet& in, std::span<const float> there);
   void send_sender(Outlet& info);
 
@@ -62,7 +63,7 @@ class OscVoice {
   osc::LiveBody body_;
   osc::JitterBuffer waiting_;
   std::vector<float> packed_;
-  std::vector<bool> there_;  // inputs, as was told last; at first everybody takes them to be there
+  std::vector<bool> there_;  // of each input, as `mask` said last; at first all are there
   std::size_t inputs_, pose_;
   bool changed_sender_ = false, flowing_ = false, said_flowing_ = false;
   std::uint64_t sender_ = 0;

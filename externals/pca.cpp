@@ -1,11 +1,11 @@
 // [gait.pca NAME style|speed]: walks by itself in a space of cycles (T10, G04).
-#include "pca_walking.h"
 #include "gait/error.h"
 #include "gait/play/cycles/cycle_projector.h"
 #include "objects.h"
-#include "pd/ticker.h"
-#include "pd/worker.h"
+#include "pca_walking.h"
+#include "pd/model_player.h"
 #include "pd/pose_values.h"
+#include "pd/ticker.h"
 
 namespace gait::pd {
 
@@ -15,14 +15,13 @@ constexpr double longest_jump = 60;  // seconds: what `advance` takes at once
 
 // What plays a model here, beside the walker.
 struct Walk {
-  Walk(const SharedModel& model, std::shared_ptr<CycleWalking::Walker> with,
-       const CycleSpace& space)
-      : walker(std::move(with)),
-        values(*model->model->body),
-        projector(space, *model->model->body),
-        own(space, *model->model->body),
-        given(3 * model->model->body->references.size(), 0.0f) {}
-  std::shared_ptr<CycleWalking::Walker> walker;  // until the walking takes it
+  Walk(const Model& model, CycleWalking::TakeOver by, const CycleSpace& space)
+      : take_over(std::move(by)),
+        values(*model.body),
+        projector(space, *model.body),
+        own(space, *model.body),
+        given(3 * model.body->references.size(), 0.0f) {}
+  CycleWalking::TakeOver take_over;  // changes to the walker; empty once that is done
   PoseValues values;
   CycleProjector projector, own;
   std::vector<float> given;
@@ -39,7 +38,7 @@ class Pca final : public ModelPlayer<Walk> {
     const std::string kind = arguments.size() > 1 ? arguments.symbol(1) : "style";
     if (kind != "style" && kind != "speed") arguments.fail_at(1, "style or speed");
     walking_ = kind == "style" ? make_style_walking() : make_speed_walking();
-    join();
+    join(info_);
   }
 
   void bang(const Arguments&) {
@@ -63,7 +62,7 @@ class Pca final : public ModelPlayer<Walk> {
     walking_->scrub(phase - std::floor(phase));
     show();
   }
-  // The path turns: whoever puts the walk into the world (the skeleton) turns it.
+  // The path turns. [gait.skeleton] turns it, which places the walk in the world.
   void turn(const Arguments& arguments) {
     arguments.expect_count(1);
     turn_ = arguments.number(0, -10, 10);
@@ -78,19 +77,6 @@ class Pca final : public ModelPlayer<Walk> {
     walking_->dump(info_);
     info_.add(turn_).send("turn");
   }
-  void report_perf(const Arguments&) { perf().report(info_); }
-  void print(const Arguments&) {
-    if (!model()) {
-      post("%s: waiting for %s", box().name(), model_name().c_str());
-      return;
-    }
-    const Model& learnt = *model()->model;
-    std::string styles;
-    for (const std::string& style : learnt.styles) styles += " " + style;
-    post("%s: walks in %s, %d scores, phase %.3f, cadence %.2f;%s", box().name(),
-         learnt.name.c_str(), walking_->space_of()(learnt).kept(), walking_->phase(),
-         static_cast<double>(walking_->cadence()), styles.c_str());
-  }
   void setting(const Arguments& arguments) {
     if (!walking_->set(arguments)) arguments.fail("no such message");
   }
@@ -101,8 +87,7 @@ class Pca final : public ModelPlayer<Walk> {
       if (!ready_for_frame()) return;
       if (!arguments.read(playing()->given) || !playing()->projector.add(playing()->given))
         slow_error().say([&] {
-          return std::string(box().name()) + ": pose: expected " +
-                 std::to_string(playing()->given.size()) + " numbers, got " +
+          return "pose: expected " + std::to_string(playing()->given.size()) + " numbers, got " +
                  std::to_string(arguments.size());
         });
     } else if (arguments.selector() == "contact") {
@@ -119,22 +104,26 @@ class Pca final : public ModelPlayer<Walk> {
  private:
   Make make() override {
     return [prepare = walking_->prepare(), space = walking_->space_of()](const SharedModel& model) {
-      auto walker = prepare(model);
-      return std::make_shared<Walk>(model, std::move(walker), space(*model->model));
+      auto take_over = prepare(model);
+      return std::make_shared<Walk>(*model->model, std::move(take_over), space(*model->model));
     };
   }
-
   void take(const SharedModel& model, Walk& fresh) override {
-    fresh.walker = walking_->take(model, std::move(fresh.walker));  // the old one
+    fresh.take_over();
+    fresh.take_over = nullptr;
     pose_.reserve(static_cast<int>(fresh.given.size()));
     info_.reserve(static_cast<int>(fresh.own.scores().size()));
     clock_.set_period(1000 / model->model->frame_rate);
     leg_sent_ = 0;
   }
-  void taken() override {
-    if (playing()->walker) Worker::get().free_later(std::move(playing()->walker));
+  void describe() override {
+    const Model& learnt = *model()->model;
+    std::string styles;
+    for (const std::string& style : learnt.styles) styles += " " + style;
+    post("%s: walks in %s, %d scores, phase %.3f, cadence %.2f;%s", box().name(),
+         learnt.name.c_str(), walking_->space_of()(learnt).kept(), walking_->phase(),
+         static_cast<double>(walking_->cadence()), styles.c_str());
   }
-  void say_ready() override { info_.add_text(model_name()).send("ready"); }
 
   void run(bool on) {
     if (on == clock_.running()) return;

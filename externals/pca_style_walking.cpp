@@ -1,9 +1,9 @@
 // [gait.pca NAME style]: the style walker's messages.
 #include <map>
 
-#include "pca_walking.h"
 #include "gait/error.h"
 #include "gait/play/cycles/style_walker.h"
+#include "pca_walking.h"
 #include "pd/style_setting.h"
 
 namespace gait::pd {
@@ -12,38 +12,57 @@ namespace {
 
 constexpr double most_score = 6;  // deviations
 
-class StyleWalking final : public CycleWalking {
+struct StyleSettings {
+  StyleSetting styles;
+  float variation = 1, exaggeration = 1, cadence = 0;
+  bool through_neutral = false;
+  std::uint64_t seed = 1;
+  std::map<int, float> pins;  // deviations
+  bool operator==(const StyleSettings&) const = default;
+
+  void set_styles(StyleWalker& walker, const Model& model) const {
+    const std::vector<float> weights = styles.weights(model);
+    if (weights.empty() || walker.set_weights(weights)) return;
+    std::string cannot;
+    for (std::size_t i = 0; i < weights.size(); ++i)
+      if (weights[i] > 0 && model.style_space->styles[i].cycles == 0)
+        cannot += (cannot.empty() ? "" : ", ") + model.styles[i];
+    throw Error("no straight cycle of " + cannot + " was captured: it cannot be walked");
+  }
+};
+
+struct StylePlaying {
+  StylePlaying(const StyleSettings& now, const SharedModel& in)
+      : settings(now), model(in), walker(*in, now.seed) {
+    const Eigen::VectorXd& variances = in->model->style_space->space.variances;
+    for (int i = 0; i < walker.components(); ++i)
+      per_deviation.push_back(variances[i] > 0 ? static_cast<float>(1 / std::sqrt(variances[i]))
+                                               : 0.0f);
+    scores.resize(per_deviation.size());
+    apply();
+  }
+  void apply() {
+    walker.set_variation(settings.variation);
+    walker.set_exaggeration(settings.exaggeration);
+    walker.set_through_neutral(settings.through_neutral);
+    walker.set_cadence(settings.cadence);
+    for (const auto& [score, value] : settings.pins) walker.pin(score, value);
+    settings.set_styles(walker, *model->model);
+  }
+  StyleSettings settings;
+  SharedModel model;
+  StyleWalker walker;
+  std::vector<float> scores, per_deviation;
+};
+
+class StyleWalking final : public WalkingBy<StylePlaying> {
  public:
-  std::function<std::shared_ptr<Walker>(const SharedModel&)> prepare() const override {
-    return [now = settings_](const SharedModel& model) -> std::shared_ptr<Walker> {
-      if (!model->has_cycles())
-        throw Error("model " + model->model->name +
-                    " has no space of styles, so [gait.pca style] cannot walk in it; train it from "
-                    "walks whose styles are named");
-      auto walking = std::make_shared<Walking>(now, model);
-      walking->apply();
-      return walking;
-    };
-  }
-
-  std::shared_ptr<Walker> take(const SharedModel& model, std::shared_ptr<Walker> made) override {
-    auto walking = std::static_pointer_cast<Walking>(std::move(made));
-    if (!(walking->settings == settings_)) {  // told something since it was made
-      walking->settings = settings_;
-      walking->apply();
-    }
-    if (walking_) walking->walker.scrub(walking_->walker.phase());
-    model_ = model;
-    std::swap(walking_, walking);
-    return walking;
-  }
-
   bool set(const Arguments& arguments) override {
     const Model* model = model_ ? model_->model.get() : nullptr;
     StyleSetting before = settings_.styles;
     if (settings_.styles.take(arguments, model)) {
       try {
-        if (walking_) settings_.set_styles(walking_->walker, *model);
+        if (playing_) settings_.set_styles(playing_->walker, *model);
       } catch (const Error& error) {
         settings_.styles = std::move(before);
         arguments.fail(error.what());
@@ -63,17 +82,9 @@ class StyleWalking final : public CycleWalking {
     for (const auto& [score, value] : settings_.pins) info.add(score).add(value).send("score");
   }
 
-  void advance(double seconds) noexcept override { walking_->walker.advance(seconds); }
-  void scrub(double phase) noexcept override { walking_->walker.scrub(phase); }
-  void reset() noexcept override { walking_->walker.restart(settings_.seed); }
-  std::span<const Eigen::Quaternionf> pose() const noexcept override {
-    return walking_->walker.pose();
-  }
-  double phase() const noexcept override { return walking_->walker.phase(); }
-  float cadence() const noexcept override { return walking_->walker.cadence(); }
-  std::optional<Foot> contact() const noexcept override { return walking_->walker.contact(); }
+  void reset() noexcept override { playing_->walker.restart(settings_.seed); }
   std::span<const float> scores() noexcept override {
-    Walking& now = *walking_;
+    StylePlaying& now = *playing_;
     for (std::size_t i = 0; i < now.scores.size(); ++i)
       now.scores[i] = now.walker.scores()[static_cast<Eigen::Index>(i)] * now.per_deviation[i];
     return now.scores;
@@ -83,70 +94,43 @@ class StyleWalking final : public CycleWalking {
   }
 
  private:
-  struct Settings {
-    StyleSetting styles;
-    float variation = 1, exaggeration = 1, cadence = 0;
-    bool through_neutral = false;
-    std::uint64_t seed = 1;
-    std::map<int, float> pins;  // deviations
-    bool operator==(const Settings&) const = default;
-
-    void set_styles(StyleWalker& walker, const Model& model) const {
-      const std::vector<float> weights = styles.weights(model);
-      if (weights.empty() || walker.set_weights(weights)) return;
-      std::string cannot;
-      for (std::size_t i = 0; i < weights.size(); ++i)
-        if (weights[i] > 0 && model.style_space->styles[i].cycles == 0)
-          cannot += (cannot.empty() ? "" : ", ") + model.styles[i];
-      throw Error("no straight cycle of " + cannot + " was captured: it cannot be walked");
-    }
-  };
-
-  struct Walking final : Walker {
-    Walking(const Settings& told, const SharedModel& in)
-        : settings(told), model(in), walker(*in, told.seed) {
-      const Eigen::VectorXd& variances = in->model->style_space->space.variances;
-      for (int i = 0; i < walker.components(); ++i)
-        per_deviation.push_back(variances[i] > 0 ? static_cast<float>(1 / std::sqrt(variances[i]))
-                                                 : 0.0f);
-      scores.resize(per_deviation.size());
-    }
-    void apply() {
-      walker.set_variation(settings.variation);
-      walker.set_exaggeration(settings.exaggeration);
-      walker.set_through_neutral(settings.through_neutral);
-      walker.set_cadence(settings.cadence);
-      for (const auto& [score, value] : settings.pins) walker.pin(score, value);
-      settings.set_styles(walker, *model->model);
-    }
-    Settings settings;
-    SharedModel model;
-    StyleWalker walker;
-    std::vector<float> scores, per_deviation;
-  };
+  Make make() const override {
+    return [now = settings_](const SharedModel& model) {
+      if (!model->has_cycles())
+        throw Error("model " + model->model->name +
+                    " has no space of styles, so [gait.pca style] cannot walk in it; train it from "
+                    "walks whose styles are named");
+      return std::make_shared<StylePlaying>(now, model);
+    };
+  }
+  void fit(StylePlaying& fresh, const Model&) const override {
+    if (fresh.settings == settings_) return;
+    fresh.settings = settings_;
+    fresh.apply();
+  }
 
   bool set_number(const Arguments& arguments) {
     const auto selector = arguments.selector();
     if (selector == "variation") {
       arguments.expect_count(1);
       settings_.variation = static_cast<float>(arguments.number(0, 0, 2));
-      if (walking_) walking_->walker.set_variation(settings_.variation);
+      if (playing_) playing_->walker.set_variation(settings_.variation);
     } else if (selector == "exaggeration") {
       arguments.expect_count(1);
       settings_.exaggeration = static_cast<float>(arguments.number(0, -1, 3));
-      if (walking_) walking_->walker.set_exaggeration(settings_.exaggeration);
+      if (playing_) playing_->walker.set_exaggeration(settings_.exaggeration);
     } else if (selector == "neutral") {
       arguments.expect_count(1);
       settings_.through_neutral = arguments.flag(0);
-      if (walking_) walking_->walker.set_through_neutral(settings_.through_neutral);
+      if (playing_) playing_->walker.set_through_neutral(settings_.through_neutral);
     } else if (selector == "cadence") {
       arguments.expect_count(1);
       settings_.cadence = static_cast<float>(arguments.number(0, 0, 8));
-      if (walking_) walking_->walker.set_cadence(settings_.cadence);
+      if (playing_) playing_->walker.set_cadence(settings_.cadence);
     } else if (selector == "seed") {
       arguments.expect_count(1);
       settings_.seed = static_cast<std::uint64_t>(arguments.integer(0, 0, 16777216));
-      if (walking_) walking_->walker.restart(settings_.seed);
+      if (playing_) playing_->walker.restart(settings_.seed);
     } else {
       return false;
     }
@@ -159,35 +143,33 @@ class StyleWalking final : public CycleWalking {
     if (selector == "free" && arguments.size() == 1 && arguments.is_symbol(0)) {
       if (arguments.symbol(0) != "all") arguments.fail_at(0, "a score's number or 'all'");
       for (const auto& [score, value] : settings_.pins)
-        if (walking_) walking_->walker.free(score);
+        if (playing_) playing_->walker.free(score);
       settings_.pins.clear();
       return true;
     }
     arguments.expect_count(selector == "score" ? 2 : 1);
-    const int most = walking_ ? walking_->walker.components() - 1 : 999;
+    const int most = playing_ ? playing_->walker.components() - 1 : 999;
     const int score = arguments.integer(0, 0, most);
     if (selector == "free") {
       settings_.pins.erase(score);
-      if (walking_) walking_->walker.free(score);
+      if (playing_) playing_->walker.free(score);
       return true;
     }
     // `pin` holds a score where it is.
     float value = 0;
     if (selector == "score")
       value = static_cast<float>(arguments.number(1, -most_score, most_score));
-    else if (walking_)
+    else if (playing_)
       value = scores()[static_cast<std::size_t>(score)];
     else
       arguments.fail("expected after the model " +
                      std::string("is there: nothing can be held yet"));
     settings_.pins[score] = value;
-    if (walking_) walking_->walker.pin(score, value);
+    if (playing_) playing_->walker.pin(score, value);
     return true;
   }
 
-  SharedModel model_;
-  std::shared_ptr<Walking> walking_;
-  Settings settings_;
+  StyleSettings settings_;
 };
 
 }  // namespace

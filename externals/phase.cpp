@@ -1,4 +1,4 @@
-// [gait.phase~]: the phase clock without a decoder: driven by phases, contacts, switches or taps.
+// [gait.phase~]: a phase clock that follows phases, contacts, foot switches or taps.
 #include <cmath>
 
 #include "objects.h"
@@ -54,12 +54,11 @@ class Phase {
          static_cast<double>(clock().phase()), static_cast<double>(clock().cadence()),
          clock().walking() ? "walking" : "standing");
   }
-  void unknown(const Arguments& arguments) { arguments.fail("no such message"); }
   void dsp(t_signal** signals) { signals_.dsp(signals); }
 
  private:
   void contact_passed(int step) {
-    info_.add(static_cast<double>(clock().cadence())).send("cadence");
+    info_.add(clock().cadence()).send("cadence");
     info_.add(step == 0 ? "right" : "left").send("step");
     info_.add(step == 0 ? "right" : "left").send("contact");
   }
@@ -83,7 +82,7 @@ void setup_phase() {
       .message<&Phase::pull>("pull")
       .message<&Phase::tap>("tap")
       .common()
-      .anything<&Phase::unknown>()
+      .refuse_others()
       .dsp();
 }
 

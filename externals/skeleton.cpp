@@ -1,6 +1,6 @@
-// [gait.skeleton NAME]: the body in the world: parts put together, walking by its feet.
+// [gait.skeleton NAME]: puts the body together from its parts and places it in the world by its
+// feet.
 #include "gait/play/body/body_stage.h"
-#include "pd/joint_argument.h"
 #include "objects.h"
 #include "pd/model_player.h"
 #include "skeleton_setting.h"
@@ -18,7 +18,7 @@ class Skeleton final : public ModelPlayer<BodyStage> {
         body_(box),
         info_(box) {
     arguments.expect_count(0, 1);
-    join();
+    join(info_);
   }
 
   void out(const Arguments& arguments) {
@@ -30,7 +30,7 @@ class Skeleton final : public ModelPlayer<BodyStage> {
     if (!ready_for_frame()) return;
     if (show_frame(arguments, pose_, [this] { return playing()->show_pose(pose_); })) show();
   }
-  // What was measured, to be shown with the outputs that are made from it.
+  // What was measured: it is shown together with the outputs that are made from it.
   void cold(const Arguments& arguments) {
     const auto selector = arguments.selector();
     if (selector == "in") {
@@ -56,7 +56,7 @@ class Skeleton final : public ModelPlayer<BodyStage> {
   void setting(const Arguments& arguments) {
     if (!settings_.take(arguments, playing().get())) arguments.fail("no such message");
   }
-  // [gait.synth] passes it on; who walks alone sends whole poses.
+  // [gait.synth] passes `stream` on. Nothing has to be done: a walk by itself sends whole poses.
   void stream(const Arguments& arguments) {
     arguments.expect_count(1);
     arguments.flag(0);
@@ -67,19 +67,14 @@ class Skeleton final : public ModelPlayer<BodyStage> {
     if (playing()) playing()->reset();
   }
   void dump(const Arguments&) { settings_.dump(info_); }
-  void report_perf(const Arguments&) { perf().report(info_); }
-  void print(const Arguments&) {
-    if (!playing()) {
-      post("%s: waiting for %s", box().name(), model_name().c_str());
-      return;
-    }
+
+ private:
+  void describe() override {
     const auto& hips = playing()->root().hips;
     post("%s: %s, %d joints, hips at %.2f %.2f %.2f m", box().name(), model()->model->name.c_str(),
          static_cast<int>(pose_.size() / 3), static_cast<double>(hips.x()),
          static_cast<double>(hips.y()), static_cast<double>(hips.z()));
   }
-
- private:
   Make make() override {
     return [](const SharedModel& shared) { return std::make_shared<BodyStage>(shared->model); };
   }
@@ -95,13 +90,13 @@ class Skeleton final : public ModelPlayer<BodyStage> {
       gensym(word);
     figure_.reserve(static_cast<int>(fresh.positions().size()));
     body_.reserve(static_cast<int>(pose_.size()));
-    settings_.apply(fresh, [this](const char* what) { say_error(this->box(), what); });
+    settings_.apply(fresh, [this](const std::string& what) { say_error(box(), what); });
     bones_due_ = true;
   }
   void say_ready() override {
-    info_.add_text(model_name()).send("ready");
+    ModelUser::say_ready();
     send_bones();
-    // Who is connected only later, as in a patch that is still being read, needs them too.
+    // Once more with the first frame: in a patch that Pd is still reading, cords come later.
     bones_due_ = true;
   }
 
@@ -109,14 +104,13 @@ class Skeleton final : public ModelPlayer<BodyStage> {
   bool take_frame(const Arguments& arguments, std::vector<float>& values, Take taken) {
     if (arguments.read(values) && taken()) return true;
     slow_error().say([&] {
-      return std::string(box().name()) + ": " + std::string(arguments.selector()) + ": expected " +
-             std::to_string(values.size()) + " finite numbers, got " +
-             std::to_string(arguments.size());
+      return std::string(arguments.selector()) + ": expected " + std::to_string(values.size()) +
+             " finite numbers, got " + std::to_string(arguments.size());
     });
     return false;
   }
 
-  // The same of a frame that is shown: what it costs is counted, and those that cannot be.
+  // The same for a frame that is shown: counts what it costs, or that it was dropped.
   template <class Take>
   bool show_frame(const Arguments& arguments, std::vector<float>& values, Take taken) {
     Perf::Frame frame(perf());

@@ -3,7 +3,7 @@
 #include <algorithm>
 
 #include "gait/error.h"
-#include "pd/joint_argument.h"
+#include "pd/named_argument.h"
 
 namespace gait::pd {
 
@@ -65,10 +65,12 @@ bool SkeletonSetting::take_number(const Arguments& arguments) {
   return true;
 }
 
-SkeletonSetting::Reported SkeletonSetting::found(const Arguments& arguments, const BodyStage& stage) {
+SkeletonSetting::Reported SkeletonSetting::found(const Arguments& arguments,
+                                                 const BodyStage& stage) {
   Reported joints;
   for (int i = 0; i < arguments.size(); ++i)
-    joints.emplace_back(joint_index(stage.model(), arguments, i), arguments.text(i));
+    joints.emplace_back(named_argument(arguments, i, stage.model().body->skeleton.joints, "joint"),
+                        arguments.text(i));
   return joints;
 }
 
@@ -78,7 +80,7 @@ void SkeletonSetting::take_report(const Arguments& arguments, const BodyStage* s
   report_.assign(arguments.atoms().begin(), arguments.atoms().end());
 }
 
-// All of them: what did not change changes nothing.
+// Sets all of them: setting the same value again has no effect.
 void SkeletonSetting::set(BodyStage& stage) const {
   stage.set_root(root_);
   stage.set_lock(lock_);
@@ -90,7 +92,8 @@ void SkeletonSetting::set(BodyStage& stage) const {
   stage.set_walking(walking_);
 }
 
-void SkeletonSetting::apply(BodyStage& stage, const std::function<void(const char*)>& failed) {
+void SkeletonSetting::apply(BodyStage& stage,
+                            const std::function<void(const std::string&)>& failed) {
   set(stage);
   try {
     reported_ = found(

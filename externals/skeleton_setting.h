@@ -1,5 +1,5 @@
-// What [gait.skeleton] was told, kept so that it can be said before the model is there and lives on
-// when it is replaced.
+// The settings of [gait.skeleton]. They may be made before the model is there, and hold for the
+// models that follow.
 //
 //   root feet|keep|still
 //   lock 0|1                feet of whole poses stay where they stand, if the root is from them
@@ -9,7 +9,7 @@
 //   leg H                   thigh and shank in metres, 0: the model's
 //   delay N                 frames by which `out` is late
 //   walking 0|1
-//   report J ...            joints that the info outlet speaks of
+//   report J ...            joints whose place and speed go out at the info outlet
 #pragma once
 
 #include <array>
@@ -25,15 +25,16 @@ namespace gait::pd {
 
 class SkeletonSetting {
  public:
-  // Takes one of the messages above and says so; false for any other selector. `stage` may be null
+  // Takes one of the messages above; false: it is another message. `stage` may be null
   // (no model yet). Throws Error, with nothing changed, for what cannot be set.
   bool take(const Arguments& arguments, BodyStage* stage);
-  // Sets everything that was said; joints that the model lacks are told to `failed` and forgotten.
-  void apply(BodyStage& stage, const std::function<void(const char*)>& failed);
+  // Gives all settings to a stage. `report` is dropped when the model lacks one of its joints, and
+  // `failed` gets the reason.
+  void apply(BodyStage& stage, const std::function<void(const std::string&)>& failed);
   // The messages that restore it.
   void dump(Outlet& info) const;
 
-  // Joints with the words they were asked for by.
+  // Joints, each with the word that `report` named it by.
   const std::vector<std::pair<int, std::string>>& reported() const { return reported_; }
 
  private:

@@ -2,10 +2,10 @@
 #include <cmath>
 
 #include "gait/error.h"
-#include "synth_label_setting.h"
 #include "objects.h"
 #include "pd/model_player.h"
 #include "pd/ticker.h"
+#include "synth_label_setting.h"
 #include "synth_setting.h"
 
 namespace gait::pd {
@@ -21,7 +21,7 @@ class Synth final : public ModelPlayer<Synthesiser> {
   Synth(Box& box, const Arguments& arguments)
       : ModelPlayer(box, arguments.size() > 0 ? arguments.text(0) : ""), out_(box), info_(box) {
     arguments.expect_count(0, 1);
-    join();
+    join(info_);
   }
 
   // One frame in, one frame out.
@@ -30,9 +30,8 @@ class Synth final : public ModelPlayer<Synthesiser> {
     const int values = model()->model->output.values;
     if (!arguments.read(gauss_) || gauss_[1] != static_cast<float>(values)) {
       slow_error().say([&] {
-        return std::string(box().name()) + ": gauss: expected " + std::to_string(gauss_.size()) +
-               " numbers for " + std::to_string(values) + " values, got " +
-               std::to_string(arguments.size());
+        return "gauss: expected " + std::to_string(gauss_.size()) + " numbers for " +
+               std::to_string(values) + " values, got " + std::to_string(arguments.size());
       });
       return;
     }
@@ -42,8 +41,8 @@ class Synth final : public ModelPlayer<Synthesiser> {
     const bool lag_fits = gauss_[0] >= 0 && gauss_[0] <= longest_lag;
     if (!lag_fits || !playing()->fits(means, variances)) {
       slow_error().say([&] {
-        return std::string(box().name()) +
-               ": gauss: expected a lag, finite means and positive variances of what moves";
+        return std::string() +
+               "gauss: expected a lag, finite means and positive variances of what moves";
       });
       return;
     }
@@ -77,15 +76,14 @@ class Synth final : public ModelPlayer<Synthesiser> {
     if (playing()) playing()->set_walking(walking_);
     out_.add(arguments.atoms()).send("walking");
   }
-  // Where the walk is that the frames come from: it goes on from there.
+  // Where the walk of a stream is: a walk by itself continues it from there.
   void place(const Arguments& arguments) {
     if (!ready_for_frame()) return;
     if (!arguments.read(place_) ||
         !playing()->set_place(place_[0], place_[1], std::span<const float>(place_).subspan(2)))
       slow_error().say([&] {
-        return std::string(box().name()) + ": place: expected phase, cadence and " +
-               std::to_string(place_.size() - 2) + " weights, got " +
-               std::to_string(arguments.size()) + " numbers";
+        return "place: expected phase, cadence and " + std::to_string(place_.size() - 2) +
+               " weights, got " + std::to_string(arguments.size()) + " numbers";
       });
   }
 
@@ -127,19 +125,6 @@ class Synth final : public ModelPlayer<Synthesiser> {
     say_queue();
   }
   void dump(const Arguments&) { settings_.dump(info_); }
-  void report_perf(const Arguments&) { perf().report(info_); }
-  void print(const Arguments&) {
-    if (!playing()) {
-      post("%s: waiting for %s", box().name(), model_name().c_str());
-      return;
-    }
-    post("%s: %s, %s, past %d, future %d, %d queued", box().name(), model()->model->name.c_str(),
-         !playing()->alone()  ? "fed"
-         : playing()->walks() ? "walks alone"
-                              : "rests",
-         playing()->past(), playing()->future(), playing()->walker().queued());
-  }
-
   // Settings, and labels by their names.
   void setting(const Arguments& arguments) {
     if (settings_.take(arguments, playing().get())) return;
@@ -148,6 +133,13 @@ class Synth final : public ModelPlayer<Synthesiser> {
   }
 
  private:
+  void describe() override {
+    post("%s: %s, %s, past %d, future %d, %d queued", box().name(), model()->model->name.c_str(),
+         !playing()->alone()  ? "fed"
+         : playing()->walks() ? "walks alone"
+                              : "rests",
+         playing()->past(), playing()->future(), playing()->walker().queued());
+  }
   Make make() override {
     SynthesiserSettings settings;
     if (playing()) settings = {playing()->past(), playing()->future()};
@@ -172,14 +164,13 @@ class Synth final : public ModelPlayer<Synthesiser> {
     for (const Label& label : model.labels) gensym(label.name.c_str());
     out_.reserve(static_cast<int>(std::max(size, fresh.pose().size())));
     clock_.set_period(1000 / model.frame_rate);
-    const auto failed = [this](const char* what) { say_error(this->box(), what); };
+    const auto failed = [this](const std::string& what) { say_error(box(), what); };
     settings_.apply(fresh, goes_on, failed);
     labels_.apply(fresh, failed);
     fresh.set_walking(walking_);
     if (!goes_on) fed_ = lost_ = whole_ = false, delay_sent_.reset();
   }
   void taken() override { run(); }
-  void say_ready() override { info_.add_text(model_name()).send("ready"); }
 
   void queue(const Arguments& arguments, const std::string& label) {
     labels_.queue(arguments, label, playing().get());
@@ -236,7 +227,7 @@ class Synth final : public ModelPlayer<Synthesiser> {
         out_.add(delay).send("delay");
       }
     }
-    // Who comes to rest does so with the joints that were shown.
+    // A walk that comes to rest does so with the joints of the frames before.
     if (settings_.whole_body().value_or(whole_))
       out_.add(playing()->pose()).send("pose");
     else

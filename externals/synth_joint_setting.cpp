@@ -3,7 +3,8 @@
 #include <algorithm>
 
 #include "gait/error.h"
-#include "pd/joint_argument.h"
+#include "gait/model/stream_layout.h"
+#include "pd/named_argument.h"
 
 namespace gait::pd {
 
@@ -11,7 +12,22 @@ namespace {
 
 constexpr double most = 1000;
 
-// What is right or wrong about it whatever the model.
+// The stream, of all of a model's, that turns the joint that argument 0 names. A model of plain
+// streams has no joints: the argument then names a stream. Throws Error when there is none.
+int stream_of_joint(const Arguments& arguments, const Model& model) {
+  if (!model.body) {
+    std::vector<Stream> streams = model.inputs;
+    streams.insert(streams.end(), model.outputs.begin(), model.outputs.end());
+    return named_argument(arguments, 0, streams, "joint");
+  }
+  const std::vector<Joint>& joints = model.body->skeleton.joints;
+  const int joint = named_argument(arguments, 0, joints, "joint");
+  if (const int stream = StreamLayout::of_all(model).stream_of(joint); stream >= 0) return stream;
+  arguments.fail("joint '" + joints[static_cast<std::size_t>(joint)].name +
+                 "' is neither input nor output of " + model.name);
+}
+
+// Throws Error for what is wrong whatever the model.
 void check(const Arguments& arguments) {
   if (arguments.size() < 2) arguments.fail("expected a joint, then scale, shift, fix or free");
   arguments.text(0);
@@ -32,14 +48,14 @@ void check(const Arguments& arguments) {
 }  // namespace
 
 void JointSetting::set(const Arguments& arguments, Synthesiser& synthesiser) {
-  const int stream = joint_stream(synthesiser.model(), arguments, 0);
+  const int stream = stream_of_joint(arguments, synthesiser.model());
   const std::string what = arguments.symbol(1);
   if (what == "free") {
     synthesiser.free(stream);
   } else if (what == "scale") {
     synthesiser.set_scale(stream, static_cast<float>(arguments.number(2)));
   } else {
-    const int size = stream_at(synthesiser.model(), stream).size;
+    const int size = StreamLayout::of_all(synthesiser.model())[stream].size;
     if (arguments.size() != 2 + size)
       arguments.fail("expected " + std::to_string(size) + " numbers after " + what + ", got " +
                      std::to_string(arguments.size() - 2));
@@ -63,7 +79,7 @@ void JointSetting::take(const Arguments& arguments, Synthesiser* synthesiser) {
 }
 
 void JointSetting::apply(Synthesiser& synthesiser,
-                          const std::function<void(const char*)>& failed) {
+                         const std::function<void(const std::string&)>& failed) {
   std::erase_if(said_, [&](const auto& entry) {
     const Message& message = entry.second;
     try {

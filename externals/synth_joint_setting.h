@@ -1,5 +1,5 @@
-// What [gait.synth] was told about single joints, kept so that it can be said before the model is
-// there and lives on when it is replaced.
+// Settings of [gait.synth] for single joints. They may be made before the model is there, and hold
+// for the models that follow.
 //
 //   joint J scale X        about its mean
 //   joint J shift x y z
@@ -22,8 +22,9 @@ class JointSetting {
   // Takes a `joint` message. `synthesiser` may be null (no model yet): then it is checked when the
   // model comes. Throws Error, with nothing changed, for what cannot be set.
   void take(const Arguments& arguments, Synthesiser* synthesiser);
-  // Sets everything that was said; what the model cannot do is told to `failed` and forgotten.
-  void apply(Synthesiser& synthesiser, const std::function<void(const char*)>& failed);
+  // Gives all settings to a synthesiser. One that does not fit the model is dropped, and `failed`
+  // gets the reason.
+  void apply(Synthesiser& synthesiser, const std::function<void(const std::string&)>& failed);
   // The messages that restore it.
   void dump(Outlet& info) const;
 

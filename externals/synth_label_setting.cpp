@@ -1,19 +1,13 @@
 #include "synth_label_setting.h"
 
+#include "pd/named_argument.h"
+
 namespace gait::pd {
 
 namespace {
 
-int label_named(const Model& model, const std::string& name) {
-  for (std::size_t i = 0; i < model.labels.size(); ++i)
-    if (model.labels[i].name == name) return static_cast<int>(i);
-  return -1;
-}
-
-std::string labels_of(const Model& model) {
-  std::string names;
-  for (const Label& label : model.labels) names += (names.empty() ? "" : ", ") + label.name;
-  return names;
+std::string no_label(const Model& model) {
+  return "no such message, nor a label of " + model.name + ", which has " + names_of(model.labels);
 }
 
 }  // namespace
@@ -26,21 +20,18 @@ void LabelSetting::queue(const Arguments& arguments, const std::string& name,
     return;
   }
   const Model& model = synthesiser->model();
-  const int label = label_named(model, name);
-  if (label < 0)
-    arguments.fail("no such message, nor a label of " + model.name + ", which has " +
-                   labels_of(model));
+  const int label = index_named(model.labels, name);
+  if (label < 0) arguments.fail(no_label(model));
   if (!synthesiser->walker().queue(label))
     arguments.fail("the queue is full, or this label can never follow");
 }
 
-void LabelSetting::apply(Synthesiser& synthesiser, const std::function<void(const char*)>& failed) {
+void LabelSetting::apply(Synthesiser& synthesiser,
+                         const std::function<void(const std::string&)>& failed) {
   for (const std::string& name : waiting_) {
-    const int label = label_named(synthesiser.model(), name);
+    const int label = index_named(synthesiser.model().labels, name);
     if (label < 0 || !synthesiser.walker().queue(label))
-      failed(("gait.synth: " + name + ": no such message, nor a label of " +
-              synthesiser.model().name + ", which has " + labels_of(synthesiser.model()))
-                 .c_str());
+      failed("gait.synth: " + name + ": " + no_label(synthesiser.model()));
   }
   waiting_.clear();
 }

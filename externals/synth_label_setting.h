@@ -1,4 +1,4 @@
-// Labels that [gait.synth] was told to walk through, by name, kept until the model is there.
+// Labels for [gait.synth]'s queue, by name; kept until the model is there.
 #pragma once
 
 #include <functional>
@@ -15,8 +15,8 @@ class LabelSetting {
   // Queues the label. `synthesiser` may be null (no model yet). Throws Error, with nothing changed,
   // when there is no such label, it cannot follow, or the queue is full.
   void queue(const Arguments& arguments, const std::string& name, Synthesiser* synthesiser);
-  // Queues what waited; labels that the model lacks are told to `failed` and forgotten.
-  void apply(Synthesiser& synthesiser, const std::function<void(const char*)>& failed);
+  // Queues what waited; a label that the model lacks is dropped, and `failed` gets the reason.
+  void apply(Synthesiser& synthesiser, const std::function<void(const std::string&)>& failed);
   void clear() { waiting_.clear(); }
 
  private:

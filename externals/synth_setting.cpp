@@ -89,7 +89,7 @@ bool SynthSetting::take_word(const Arguments& arguments) {
   return true;
 }
 
-// All of them: what did not change changes nothing.
+// Sets all of them: setting the same value again has no effect.
 void SynthSetting::set_numbers(Synthesiser& synthesiser) const {
   synthesiser.walker().set_auto(auto_);
   LabelDurations& durations = synthesiser.walker().durations();
@@ -103,7 +103,7 @@ void SynthSetting::set_numbers(Synthesiser& synthesiser) const {
 }
 
 void SynthSetting::apply(Synthesiser& synthesiser, bool goes_on,
-                         const std::function<void(const char*)>& failed) {
+                         const std::function<void(const std::string&)>& failed) {
   set_numbers(synthesiser);
   joints_.apply(synthesiser, failed);
   if (goes_on) return;
@@ -112,7 +112,7 @@ void SynthSetting::apply(Synthesiser& synthesiser, bool goes_on,
     if (!weights.empty() && !synthesiser.walker().set_weights(weights))
       throw Error("expected styles that " + synthesiser.model().name + " has steps of");
   } catch (const Error& error) {
-    failed((std::string("gait.synth: style: ") + error.what()).c_str());
+    failed(std::string("gait.synth: style: ") + error.what());
     styles_.clear();
   }
 }

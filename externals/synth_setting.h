@@ -1,5 +1,5 @@
-// What [gait.synth] was told, kept so that it can be said before the model is there and lives on
-// when it is replaced.
+// The settings of [gait.synth]. They may be made before the model is there, and hold for the models
+// that follow.
 //
 //   style, weight, styles   see StyleSetting
 //   joint ...               see JointSetting
@@ -14,24 +14,24 @@
 #include <optional>
 #include <string>
 
-#include "synth_joint_setting.h"
 #include "pd/style_setting.h"
+#include "synth_joint_setting.h"
 
 namespace gait::pd {
 
 class SynthSetting {
  public:
-  // Takes one of the messages above and says so; false for any other selector. `synthesiser` may be
+  // Takes one of the messages above; false: it is another message. `synthesiser` may be
   // null (no model yet). Throws Error, with nothing changed, for what cannot be set.
   bool take(const Arguments& arguments, Synthesiser* synthesiser);
-  // Sets everything that was said; what the model cannot do is told to `failed` and forgotten.
-  // `goes_on`: it walks where another one did, in the styles it had.
+  // Gives all settings to a synthesiser. One that does not fit the model is dropped, and `failed`
+  // gets the reason. `goes_on`: the synthesiser has taken over another one's walk and its styles.
   void apply(Synthesiser& synthesiser, bool goes_on,
-             const std::function<void(const char*)>& failed);
+             const std::function<void(const std::string&)>& failed);
   // The messages that restore it.
   void dump(Outlet& info) const;
 
-  // Whether frames go out as whole bodies; nothing when it depends on where they come from.
+  // Whether frames go out as whole bodies; nothing: those of a walk by itself do, others do not.
   std::optional<bool> whole_body() const { return whole_body_; }
 
  private:

@@ -3,11 +3,11 @@
 #include "gait/play/input/sender_clock.h"
 #include "gait/play/map/observation_message.h"
 #include "gait/play/recognise/live_recogniser.h"
-#include "viterbi_setting.h"
-#include "pd/multichannel.h"
 #include "objects.h"
 #include "pd/model_player.h"
+#include "pd/multichannel.h"
 #include "pd/phase_signals.h"
+#include "viterbi_setting.h"
 #include "viterbi_signal_input.h"
 #include "viterbi_single_inputs.h"
 
@@ -16,10 +16,6 @@ namespace gait::pd {
 namespace {
 
 constexpr double falling_in = 2;  // seconds: for as long as `place` is told with a stream's frames
-
-bool is_flag(const Arguments& arguments, int i) {
-  return arguments.is_symbol(i) && arguments.symbol(i).starts_with('-');
-}
 
 // What plays a model here.
 struct Recognising {
@@ -40,11 +36,11 @@ struct Recognising {
 class Viterbi final : public ModelPlayer<Recognising> {
  public:
   Viterbi(Box& box, const Arguments& arguments)
-      : ModelPlayer(box, arguments.size() > 0 && !is_flag(arguments, 0) ? arguments.text(0) : ""),
+      : ModelPlayer(box, arguments.is_word(0) ? arguments.text(0) : ""),
         signals_(box, [this](int step) { touch(step); }),
         message_(box),
         info_(box) {
-    int at = arguments.size() > 0 && !is_flag(arguments, 0) ? 1 : 0;
+    int at = arguments.is_word(0) ? 1 : 0;
     while (at < arguments.size()) {
       const std::string flag = arguments.symbol(at++);
       if (flag == "-signals" && signal_input_.inlets() == 0)
@@ -54,7 +50,7 @@ class Viterbi final : public ModelPlayer<Recognising> {
       else
         arguments.fail_at(at - 1, "-signals N or -mc");
     }
-    join();
+    join(info_);
   }
 
   void in(const Arguments& arguments) { whole_frame(arguments, false); }
@@ -100,19 +96,6 @@ class Viterbi final : public ModelPlayer<Recognising> {
     step_ = style_ = -1;
   }
   void dump(const Arguments&) { settings_.dump(info_); }
-  void report_perf(const Arguments&) { perf().report(info_); }
-  void print(const Arguments&) {
-    if (!playing()) {
-      post("%s: waiting for %s", box().name(), model_name().c_str());
-      return;
-    }
-    const Model& learnt = *model()->model;
-    post("%s: recognises with %s, %d frames late; %s, %s, label %s, phase %.3f", box().name(),
-         model_name().c_str(), live().recogniser().lag(), streaming_ ? "streaming" : "no stream",
-         walking_ ? "walking" : "standing", learnt.labels[live().decision().label].name.c_str(),
-         static_cast<double>(live().decision().phase));
-  }
-
   void dsp(t_signal** signals) {
     const int inlets = signal_input_.inlets();
     for (int i = 0; i < PhaseSignals::outlets; ++i) make_single(&signals[inlets + i]);
@@ -127,16 +110,19 @@ class Viterbi final : public ModelPlayer<Recognising> {
     };
   }
   void take(const SharedModel& model, Recognising& fresh) override {
-    for (const std::string& unknown : settings_.forget_unknown(*model->model)) {
-      const std::string line =
-          std::string(box().name()) + ": mask: no input '" + unknown + "' in " + model_name();
-      say_error(box(), line.c_str());
-    }
+    for (const std::string& unknown : settings_.forget_unknown(*model->model))
+      complain(box(), "mask: no input '" + unknown + "' in " + model_name());
     begin(fresh, *model->model);
   }
-  // A decoder that was asked for while the worker made another.
+  void describe() override {
+    const Model& learnt = *model()->model;
+    post("%s: recognises with %s, %d frames late; %s, %s, label %s, phase %.3f", box().name(),
+         model_name().c_str(), live().recogniser().lag(), streaming_ ? "streaming" : "no stream",
+         walking_ ? "walking" : "standing", learnt.labels[live().decision().label].name.c_str(),
+         static_cast<double>(live().decision().phase));
+  }
+  // `decoder` may have come while the worker made another one.
   void taken() override { follow_decoder(); }
-  void say_ready() override { info_.add_text(model_name()).send("ready"); }
 
   // Recognises as the settings say, where the decoder is another.
   void follow_decoder() {
@@ -191,7 +177,7 @@ class Viterbi final : public ModelPlayer<Recognising> {
                                    : body                         ? pose
                                    : playing()->pose.empty()      ? in
                                                                   : in + " or " + pose;
-      return std::string(box().name()) + ": " + what + ": expected " + expected + " numbers, got " +
+      return std::string(what) + ": expected " + expected + " numbers, got " +
              std::to_string(count);
     });
   }
@@ -200,7 +186,7 @@ class Viterbi final : public ModelPlayer<Recognising> {
     if (arrival == FrameClock::Arrival::rejected) {
       perf().drop();
       slow_error().say([&] {
-        return std::string(box().name()) + ": " + what +
+        return std::string(what) +
                ": expected finite numbers, at a time after the frame before's (who sends frames "
                "together says their rate)";
       });

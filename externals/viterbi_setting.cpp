@@ -2,19 +2,13 @@
 
 #include <algorithm>
 
-#include "pd/stream_argument.h"
+#include "pd/named_argument.h"
 
 namespace gait::pd {
 
 namespace {
 
 constexpr double longest = 60;  // seconds
-
-int input_named(const Model& model, const std::string& name) {
-  for (std::size_t i = 0; i < model.inputs.size(); ++i)
-    if (model.inputs[i].name == name || std::to_string(i) == name) return static_cast<int>(i);
-  return -1;
-}
 
 }  // namespace
 
@@ -38,7 +32,7 @@ void ViterbiSetting::mask(const Arguments& arguments, const Model* model) {
     masks_.clear();
     if (there) return;
   } else if (model) {
-    stream_argument(arguments, 0, model->inputs, "input");
+    named_argument(arguments, 0, model->inputs, "input");
   }
   std::erase_if(masks_, [&](const Mask& mask) { return mask.input == input; });
   masks_.push_back({input, there});
@@ -80,7 +74,8 @@ void ViterbiSetting::timeout(const Arguments& arguments) {
 std::vector<std::string> ViterbiSetting::forget_unknown(const Model& model) {
   std::vector<std::string> unknown;
   for (const Mask& mask : masks_)
-    if (mask.input != "all" && input_named(model, mask.input) < 0) unknown.push_back(mask.input);
+    if (mask.input != "all" && index_said(model.inputs, mask.input) < 0)
+      unknown.push_back(mask.input);
   std::erase_if(masks_, [&](const Mask& mask) {
     return std::ranges::find(unknown, mask.input) != unknown.end();
   });
@@ -90,7 +85,7 @@ std::vector<std::string> ViterbiSetting::forget_unknown(const Model& model) {
 void ViterbiSetting::apply(LiveRecogniser& live, const Model& model) const {
   std::vector<bool> missing(model.inputs.size(), false);
   for (const Mask& mask : masks_) {
-    const int input = input_named(model, mask.input);
+    const int input = index_said(model.inputs, mask.input);
     if (mask.input == "all")
       missing.assign(missing.size(), !mask.there);
     else if (input >= 0)

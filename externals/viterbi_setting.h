@@ -1,5 +1,5 @@
-// The settings of [gait.viterbi~]: checked when they are told, kept before the model is there and
-// when it is replaced, and said again by `dump`.
+// The settings of [gait.viterbi~]. They may be made before the model is there, and hold for the
+// models that follow.
 #pragma once
 
 #include <optional>
@@ -13,8 +13,8 @@ namespace gait::pd {
 
 class ViterbiSetting {
  public:
-  // Take a setting. Throw Error, with nothing changed, when it cannot be. `model`: null before it
-  // is there.
+  // Each takes the message of its name. Throws Error, with nothing changed, when the message does
+  // not fit. `model`: null before it is there.
   void decoder(const Arguments& arguments);  // viterbi | forward | lag SECONDS
   void mask(const Arguments& arguments, const Model* model);
   void on_lost(const Arguments& arguments);
@@ -24,9 +24,9 @@ class ViterbiSetting {
   void hold(const Arguments& arguments);
   void timeout(const Arguments& arguments);
 
-  // Forgets masks that this model has no input for, and says which.
+  // Drops masks of inputs that this model lacks, and returns the names of these.
   std::vector<std::string> forget_unknown(const Model& model);
-  // What a recogniser is made with, and what can be told to it at any time.
+  // The settings that a recogniser is made with; apply() sets all others at any time.
   const RecogniserSettings& recognising() const { return recognising_; }
   bool same_recogniser(const RecogniserSettings& other) const {
     return recognising_.decoder == other.decoder && recognising_.lag == other.lag;

@@ -25,7 +25,6 @@ class SignalInput {
   void make_inlets(int count);
   void make_multichannel();
   int inlets() const { return multichannel_ ? 1 : inlets_; }
-  bool multichannel() const { return multichannel_; }
 
   void set_rate(double frames_per_second) { rate_ = frames_per_second; }
   // From the box's dsp method, before anything that writes the outlets' signals: they may lie where

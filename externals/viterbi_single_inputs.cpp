@@ -2,7 +2,7 @@
 
 #include <array>
 
-#include "pd/stream_argument.h"
+#include "pd/named_argument.h"
 
 namespace gait::pd {
 
@@ -21,7 +21,7 @@ std::array<float, count> numbers(const Arguments& arguments, int first) {
 
 void set_joint(const Arguments& arguments, const Model& model, InputStream& stream) {
   constexpr int most = 64;  // values of one plain stream
-  const int input = stream_argument(arguments, 0, model.inputs, "input");
+  const int input = named_argument(arguments, 0, model.inputs, "input");
   const int size = model.inputs[input].size;
   arguments.expect_count(1 + size);
   std::array<float, most> values;
@@ -32,7 +32,7 @@ void set_joint(const Arguments& arguments, const Model& model, InputStream& stre
 }
 
 void set_quaternion(const Arguments& arguments, const Model& model, InputStream& stream) {
-  const int input = stream_argument(arguments, 0, model.inputs, "input");
+  const int input = named_argument(arguments, 0, model.inputs, "input");
   arguments.expect_count(5);
   const auto [x, y, z, w] = numbers<4>(arguments, 1);
   if (!stream.set_rotation(input, Eigen::Quaternionf(w, x, y, z)))
@@ -40,7 +40,7 @@ void set_quaternion(const Arguments& arguments, const Model& model, InputStream&
 }
 
 void set_euler(const Arguments& arguments, const Model& model, InputStream& stream) {
-  const int input = stream_argument(arguments, 0, model.inputs, "input");
+  const int input = named_argument(arguments, 0, model.inputs, "input");
   arguments.expect_count(5);
   if (!stream.set_euler(input, arguments.symbol(1), numbers<3>(arguments, 2)))
     arguments.fail_at(1, "an order such as ZXY and an input that is a rotation");

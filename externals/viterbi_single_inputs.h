@@ -7,7 +7,7 @@
 
 namespace gait::pd {
 
-// Throw Error, with nothing changed, for what cannot be set.
+// Each throws Error, with nothing changed, when the message does not fit the model.
 void set_joint(const Arguments& arguments, const Model& model, InputStream& stream);
 void set_quaternion(const Arguments& arguments, const Model& model, InputStream& stream);
 void set_euler(const Arguments& arguments, const Model& model, InputStream& stream);

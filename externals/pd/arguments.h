@@ -1,5 +1,5 @@
-// The arguments of a message or of a box, checked as they are read. Whatever does not fit throws
-// Error in one form: `gait.map: strength: expected a number, got 'loud'`.
+// The arguments of a message or of a box, checked as they are read. An argument that does not fit
+// throws Error in one form: `gait.map: strength: expected a number, got 'loud'`.
 #pragma once
 
 #include <m_pd.h>
@@ -24,6 +24,10 @@ class Arguments {
 
   bool is_number(int i) const { return i < size() && atoms_[i].a_type == A_FLOAT; }
   bool is_symbol(int i) const { return i < size() && atoms_[i].a_type == A_SYMBOL; }
+  // A box's argument such as `-poly`.
+  bool is_flag(int i) const { return is_symbol(i) && *atoms_[i].a_w.w_symbol->s_name == '-'; }
+  // Whether there is an argument that is no flag.
+  bool is_word(int i) const { return i < size() && !is_flag(i); }
   // Raw, for frames: 0 when it is no number.
   t_float raw(int i) const { return is_number(i) ? atoms_[i].a_w.w_float : 0; }
 

@@ -36,7 +36,8 @@ void take_anything(ColdInlet::Proxy* proxy, t_symbol* selector, int count, t_ato
 
 }  // namespace
 
-void say_error(Box& box, const char* what) { pd_error(&box, "%s", what); }
+void say_error(Box& box, const std::string& what) { pd_error(&box, "%s", what.c_str()); }
+void complain(Box& box, const std::string& what) { say_error(box, box.name() + (": " + what)); }
 
 ColdInlet::ColdInlet(Box& box, void* self, Take take) {
   proxy_ = reinterpret_cast<Proxy*>(pd_new(proxy_class()));

@@ -8,6 +8,7 @@
 #include <m_pd.h>
 
 #include <exception>
+#include <string>
 
 #include "pd/arguments.h"
 
@@ -22,8 +23,10 @@ struct Box {
   const char* name() const { return class_getname(object.ob_pd); }
 };
 
-// Says it on the console, for this box ("Find last error" leads to it).
-void say_error(Box& box, const char* what);
+// Prints an error on the console, for this box ("Find last error" leads to it).
+void say_error(Box& box, const std::string& what);
+// The same with the box's name first: `gait.map: ...`.
+void complain(Box& box, const std::string& what);
 
 // An inlet that takes any message without being the first. Its owner must keep it.
 class ColdInlet {
@@ -88,6 +91,11 @@ class Class {
     if (fresh_) class_addanything(cls_, reinterpret_cast<t_method>(&call<Method>));
     return *this;
   }
+  // Answers all other messages with an error in the library's words instead of Pd's.
+  Class& refuse_others() {
+    if (fresh_) class_addanything(cls_, reinterpret_cast<t_method>(&refuse));
+    return *this;
+  }
   // void T::dsp(t_signal**), when the DSP graph is made.
   Class& dsp() {
     if (fresh_)
@@ -132,11 +140,10 @@ class Class {
   }
   template <auto Method>
   static void call_bang(Box* box) {
-    try {
-      (static_cast<T*>(box->self)->*Method)(Arguments(box->name(), "bang", 0, nullptr));
-    } catch (const std::exception& error) {
-      say_error(*box, error.what());
-    }
+    call<Method>(box, &s_bang, 0, nullptr);
+  }
+  static void refuse(Box* box, t_symbol* selector, int, t_atom*) {
+    complain(*box, std::string(name_of(selector)) + ": no such message");
   }
   static void call_dsp(Box* box, t_signal** signals) { static_cast<T*>(box->self)->dsp(signals); }
 

@@ -13,6 +13,14 @@ namespace gait::pd {
 
 template <class Playing>
 class ModelPlayer : public ModelUser {
+ public:
+  void print(const Arguments&) {
+    if (playing_)
+      describe();
+    else
+      post("%s: waiting for %s", box().name(), model_name().c_str());
+  }
+
  protected:
   using ModelUser::ModelUser;
 
@@ -20,20 +28,19 @@ class ModelPlayer : public ModelUser {
   // it may throw Error.
   using Make = std::function<std::shared_ptr<Playing>(const SharedModel& model)>;
   virtual Make make() = 0;
-  // Brings what was made up to the settings as they are now, and to where the one before is
-  // (playing(), null at first). Throws Error when the model cannot serve.
+  // Gives what was made the settings as they are now, and the state of the one before (playing(),
+  // null at first). Throws Error when the model cannot serve.
   virtual void take(const SharedModel& model, Playing& fresh) = 0;
   // After playing() has changed.
   virtual void taken() {}
+  // Prints on the console what plays.
+  virtual void describe() = 0;
 
   // What plays; null before the model is there.
   const std::shared_ptr<Playing>& playing() const { return playing_; }
 
   // Plays through `fresh` from now on.
-  void play(std::shared_ptr<Playing> fresh) {
-    std::swap(playing_, fresh);
-    if (fresh) Worker::get().free_later(std::move(fresh));
-  }
+  void play(std::shared_ptr<Playing> fresh) { replace(playing_, std::move(fresh)); }
 
  private:
   Prepare prepare() final {

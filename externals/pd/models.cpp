@@ -49,13 +49,15 @@ ModelUser::ModelUser(Box& box, std::string name)
       slow_error_(box) {}
 
 ModelUser::~ModelUser() {
-  if (joined_) Models::get().remove(this);
+  if (info_outlet_) Models::get().remove(this);
 }
 
-void ModelUser::join() {
-  joined_ = true;
+void ModelUser::join(Outlet& info) {
+  info_outlet_ = &info;
   Models::get().add(this);
 }
+
+void ModelUser::say_ready() { info_outlet_->add_text(name_).send("ready"); }
 
 bool ModelUser::ready_for_frame() {
   if (model_) return true;
@@ -76,8 +78,7 @@ void ModelUser::change(const SharedModel& model, TakeOver take_over) {
     model_ = model;
     said_waiting_ = false;
   } catch (const std::exception& error) {
-    const std::string line = std::string(box_.name()) + ": " + error.what();
-    say_error(box_, line.c_str());
+    complain(box_, error.what());
   }
 }
 

@@ -1,5 +1,5 @@
-// Models by name, shared by all boxes. A name is global, as a [send]'s is; a model behind it may be
-// replaced while everybody plays, between two ticks, for all its users at once.
+// Models by name, shared by all boxes. A name is global, as a [send]'s is. Another model may take a
+// name while boxes play: all boxes of that name change to it at once, between two ticks.
 #pragma once
 
 #include <functional>
@@ -20,8 +20,8 @@ using SharedModel = std::shared_ptr<const PlayModel>;
 SharedModel load_model(const std::string& path);
 SharedModel load_demo_model();
 
-// A box that plays a model. Its class derives from this and calls join() at the end of its
-// constructor.
+// A box that uses the model of a name. Its class derives from this and calls join() at the end of
+// its constructor.
 class ModelUser {
  public:
   // `name`: empty for the built-in model.
@@ -31,15 +31,17 @@ class ModelUser {
   ModelUser& operator=(const ModelUser&) = delete;
 
   const std::string& model_name() const { return name_; }
+  // `perf`: what the box's frames cost, at the info outlet.
+  void report_perf(const Arguments&) { perf_.report(*info_outlet_); }
 
  protected:
-  // Takes the model over at once when it is there already; the built-in one is loaded when nobody
-  // has done so.
-  void join();
+  // Plays the name's model at once when it is loaded. The built-in model is loaded when no box has
+  // loaded it. `info`: the box's info outlet.
+  void join(Outlet& info);
   // The model, null before it is there.
   const SharedModel& model() const { return model_; }
-  // Before a frame: true with a model. Else the frame is dropped and counted, and the console is
-  // told once what is waited for.
+  // Before a frame: true with a model. Else the frame is dropped and counted, and the console says
+  // once which model the box waits for.
   bool ready_for_frame();
 
   // Plays a model from now on. It runs between two ticks of Pd's thread, so it must be quick. It
@@ -53,8 +55,8 @@ class ModelUser {
   // As a TakeOver.
   virtual void follow(const SharedModel&) {}
 
-  // After every user of the name has taken it: `ready NAME` at the info outlet.
-  virtual void say_ready() = 0;
+  // After every user of the name has taken the model: `ready NAME` at the info outlet.
+  virtual void say_ready();
 
   Box& box() { return box_; }
   Perf& perf() { return perf_; }
@@ -68,7 +70,8 @@ class ModelUser {
   Box& box_;
   std::string name_;
   SharedModel model_;
-  bool joined_ = false, said_waiting_ = false;
+  Outlet* info_outlet_ = nullptr;  // of the box, once it has joined
+  bool said_waiting_ = false;
   Perf perf_;
   SlowError slow_error_;
 };
@@ -78,13 +81,12 @@ class Models {
   static Models& get();
 
   SharedModel find(const std::string& name) const;
-  // Has the built-in model loaded, unless it is there or on its way.
+  // Loads the built-in model, unless it is loaded or being loaded.
   void want_demo();
-  // Runs `make` on the worker (or here, `blocking`), then all that its users have to prepare; then
-  // swaps for all users of the name between two ticks, and tells them. The old one is freed on the
-  // worker. `failed` gets the
-  // reason on Pd's thread when it threw; nothing has changed then. A later load of the same name
-  // makes an earlier one that is still running count for nothing.
+  // Runs `make` on the worker (or here, `blocking`), then all that its users have to prepare. Then,
+  // between two ticks, all users of the name change to the new model, and the worker frees the old
+  // one. When `make` throws, nothing changes, and `failed` gets the reason on Pd's thread. The
+  // result of a load is dropped when a later load of the same name has begun.
   void load(const std::string& name, std::function<SharedModel()> make, bool blocking,
             std::function<void(const std::string& reason)> failed);
 

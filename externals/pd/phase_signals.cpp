@@ -34,19 +34,15 @@ void PhaseSignals::fill(int count) noexcept {
   const int longest = static_cast<int>(ramp_.size());
   for (int done = 0; done < count; done += longest) {
     const int part = std::min(longest, count - done);
-    if (running_) {
-      clock_.process({ramp_.data(), static_cast<std::size_t>(part)}, sample_rate_);
-      for (const PhaseClock::Crossing& crossing : clock_.crossings()) {
-        (crossing.step % 2 == 0 ? right : left)[done + crossing.sample] = 1;
-        if (count_ < static_cast<int>(steps_.size()))
-          steps_[static_cast<std::size_t>(count_++)] = crossing.step;
-      }
-    } else {
-      std::fill_n(ramp_.data(), part, clock_.phase());
+    clock_.process({ramp_.data(), static_cast<std::size_t>(part)}, sample_rate_);
+    for (const PhaseClock::Crossing& crossing : clock_.crossings()) {
+      (crossing.step % 2 == 0 ? right : left)[done + crossing.sample] = 1;
+      if (count_ < static_cast<int>(steps_.size()))
+        steps_[static_cast<std::size_t>(count_++)] = crossing.step;
     }
     for (int i = 0; i < part; ++i) phase[done + i] = ramp_[static_cast<std::size_t>(i)];
   }
-  std::fill_n(cadence, count, running_ ? t_sample(clock_.cadence()) : t_sample(0));
+  std::fill_n(cadence, count, t_sample(clock_.cadence()));
   if (count_ > 0) ticker_.after(0);
   moved_ = clock_getlogicaltime();
   silent_ = false;
@@ -66,7 +62,7 @@ void PhaseSignals::tell() {
 void PhaseSignals::keep_going() {
   constexpr double longest_block = 0.25;  // seconds; after that DSP is off
   const double passed = clock_gettimesince(moved_) / 1000;
-  if (!running_ || (!silent_ && passed < longest_block)) return;
+  if (!silent_ && passed < longest_block) return;
   silent_ = true;
   moved_ = clock_getlogicaltime();
   clock_.advance(passed);

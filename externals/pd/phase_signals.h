@@ -26,8 +26,6 @@ class PhaseSignals {
   PhaseClock& clock() { return clock_; }
   // Another clock (of another model), which goes on where the last one was.
   void replace(const PhaseClockSettings& settings);
-  // Whether contacts and the ramp may go on: off, phase~ stands and right~ and left~ are silent.
-  void set_running(bool running) { running_ = running; }
 
   // With every frame: while no DSP runs, the clock goes on by what time has passed, so that
   // contacts are told without sound too.
@@ -46,7 +44,6 @@ class PhaseSignals {
 
   PhaseClock clock_;
   std::function<void(int)> contact_;
-  bool running_ = true;
   double sample_rate_ = 48000;
   std::array<t_sample*, outlets> out_{};
   std::array<float, 8192> ramp_{};

@@ -1,4 +1,4 @@
-// Errors that could come with every frame: said once a second at most, with how many there were.
+// Errors that every frame may repeat: printed once a second at most, with their count.
 #pragma once
 
 #include <m_pd.h>
@@ -13,14 +13,15 @@ class SlowError {
  public:
   explicit SlowError(Box& box) : box_(box) {}
 
-  // `text()` makes the line; it is called only when it is said.
+  // `text()` makes the line that follows the box's name; it is called only when the line is
+  // printed.
   template <class Text>
   void say(Text text) {
     ++unsaid_;
     if (said_ >= 0 && clock_gettimesince(said_) < 1000) return;
     std::string line = text();
     if (unsaid_ > 1) line += " (" + std::to_string(unsaid_) + " times since it was said last)";
-    say_error(box_, line.c_str());
+    complain(box_, line);
     said_ = clock_getlogicaltime();
     unsaid_ = 0;
   }

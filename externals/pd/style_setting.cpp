@@ -3,6 +3,7 @@
 #include <algorithm>
 
 #include "gait/error.h"
+#include "pd/named_argument.h"
 
 namespace gait::pd {
 
@@ -86,14 +87,11 @@ std::vector<float> StyleSetting::weights(const Model& model) const {
   }
   weights.assign(model.styles.size(), 0);
   for (const auto& [name, weight] : mix_) {
-    const auto at = std::ranges::find(model.styles, name);
-    if (at == model.styles.end()) {
-      std::string known;
-      for (const std::string& style : model.styles) known += (known.empty() ? "" : ", ") + style;
+    const int style = index_named(model.styles, name);
+    if (style < 0)
       throw Error("no style '" + name + "' in " + model.name + "; it has " +
-                  (known.empty() ? "none" : known));
-    }
-    weights[static_cast<std::size_t>(at - model.styles.begin())] += static_cast<float>(weight);
+                  (model.styles.empty() ? "none" : names_of(model.styles)));
+    weights[static_cast<std::size_t>(style)] += static_cast<float>(weight);
   }
   return weights;
 }

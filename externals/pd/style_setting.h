@@ -1,5 +1,5 @@
-// The styles a walker was told: kept by name, so that they can be said before the model is there
-// and live on when it is replaced.
+// The styles that a walker is to walk in, of [gait.synth] and [gait.pca]. They are kept by name:
+// they may be set before the model is there, and hold for the models that follow.
 //
 //   style NAME            only this one
 //   style A 0.7 B 0.3     the whole mix
@@ -18,9 +18,9 @@ namespace gait::pd {
 
 class StyleSetting {
  public:
-  // Takes one of the messages above and says so; false for any other selector. `model` may be null
-  // (not there yet): then names are checked when it comes. Throws Error, with nothing changed, for
-  // what cannot be set.
+  // Takes one of the messages above; false: it is another message. `model`: null before it is
+  // there; names are then checked when it comes. Throws Error, with nothing changed, when the
+  // message does not fit.
   bool take(const Arguments& arguments, const Model* model);
 
   // One weight per style of the model; empty when nothing was set. Throws Error naming a style that

@@ -1,5 +1,5 @@
-// What takes too long for Pd's thread: done on one worker thread, job after job; its end is seen by
-// a clock on Pd's thread, which then finishes it there. The worker never calls Pd.
+// A thread for work that takes too long for Pd's thread. It does job after job; a clock on Pd's
+// thread sees the end of each job and finishes it there. The worker never calls Pd.
 #pragma once
 
 #include <functional>
@@ -12,16 +12,16 @@ class Worker {
   // Made when it is first needed and never destroyed: Pd leaves by exit(), and a thread in a static
   // object would end the process in disorder.
   static Worker& get();
-  // Another for what takes seconds, behind everybody else: nobody's model waits for it, and it
-  // gives way to sound.
+  // Another worker for jobs of seconds: loading a model does not wait for them, and its low
+  // priority gives way to sound.
   static Worker& patient();
 
   // `work` runs on the worker, then `finish` on Pd's thread; neither may throw. With `blocking`
-  // both run before this returns, on this thread: for batch patches, where logical time runs away
-  // from everybody else.
+  // both run on this thread before this returns: for batch patches, whose logical time runs ahead
+  // of every other thread.
   void run(std::function<void()> work, std::function<void()> finish, bool blocking = false);
 
-  // Lets go of something large on the worker, once nobody else holds it.
+  // Releases something large on the worker, so that it is freed there.
   void free_later(std::shared_ptr<const void> what);
 
  private:
@@ -29,5 +29,12 @@ class Worker {
   struct Inside;
   Inside* inside_;
 };
+
+// Puts `next` in the place of `now`; the worker frees what was there.
+template <class T>
+void replace(std::shared_ptr<T>& now, std::shared_ptr<T> next) {
+  now.swap(next);
+  if (next) Worker::get().free_later(std::move(next));
+}
 
 }  // namespace gait::pd
