@@ -1,5 +1,5 @@
-// Observations: what a recogniser sees of a frame, and what a synthesiser is taught (design.md,
-// Observe).
+// Observations: what a recogniser sees of a frame, and what a synthesiser is taught
+// (docs/design.md, Observe).
 //
 // Input observation x: the values that move, then their differences to some frames back; causal, so
 // that learning sees what playing will see. Output observation y: the values that move with centred

@@ -1,5 +1,5 @@
-// Heading of a walk from its hips as they come live, and the hips without it (design.md, Words:
-// hips, heading): the facing direction averaged over the last cycle.
+// Heading of a walk from its hips as they come live, and the hips without it
+// (docs/design.md, Words: hips, heading): the facing direction averaged over the last cycle.
 #pragma once
 
 #include <Eigen/Geometry>

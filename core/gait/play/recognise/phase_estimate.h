@@ -1,7 +1,7 @@
 // Phase from a decision: how far through the cycle of labels the decided frame is, 0 to 1.
 //
 // Cycles are those of model/label_cycle.h: the steps of a walk are right = [0, 0.5), left = [0.5,
-// 1). Within a label the mean durations of its states say how far it is (design.md, Progress).
+// 1). Within a label the mean durations of its states say how far it is (docs/design.md, Progress).
 //
 // A decision rests on the pose and on differences to poses some frames back. A difference over d
 // seconds speaks of the moment d/2 ago, so who walks faster than the model's mean is seen too early

@@ -1,5 +1,5 @@
-// Makes state tables for another set of inputs while the walk goes on (design.md, Recognise): the
-// player asks, a worker factors, the player takes the result between two frames.
+// Makes state tables for another set of inputs while the walk goes on (docs/design.md, Emissions):
+// the player asks, a worker factors, the player takes the result between two frames.
 //
 // Only atomics between them; the player neither waits, allocates nor frees.
 #pragma once

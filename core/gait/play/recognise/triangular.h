@@ -1,7 +1,8 @@
 // Packed lower-triangular matrices and their product with a vector: what whitening an observation
 // costs, and nearly all a frame costs.
 //
-// Raw pointers, because the kernel is compiled for several instruction sets (design.md, Traps).
+// Raw pointers, because the kernel is compiled for several instruction sets (docs/design.md,
+// Traps).
 #pragma once
 
 #include <Eigen/Core>
