@@ -5,6 +5,7 @@
 
 #include "gait/error.h"
 #include "gait/files/bvh.h"
+#include "gait/files/whole_file.h"
 
 namespace gait {
 namespace {
@@ -112,26 +113,7 @@ std::string bvh_text(const BvhFile& file) {
 }
 
 void write_bvh(const BvhFile& file, const std::filesystem::path& path) {
-  const std::string text = bvh_text(file);
-  std::filesystem::path unfinished = path;
-  unfinished += ".part";
-  {
-    std::ofstream stream(unfinished, std::ios::binary);
-    stream.write(text.data(), static_cast<std::streamsize>(text.size()));
-    stream.close();
-    if (!stream) {
-      std::error_code ignored;
-      std::filesystem::remove(unfinished, ignored);
-      throw Error(path.string() + ": cannot be written");
-    }
-  }
-  std::error_code error;
-  std::filesystem::rename(unfinished, path, error);
-  if (error) {
-    std::error_code ignored;
-    std::filesystem::remove(unfinished, ignored);
-    throw Error(path.string() + ": cannot be written: " + error.message());
-  }
+  write_whole_file(path, bvh_text(file));
 }
 
 }  // namespace gait

@@ -8,6 +8,7 @@
 #include <optional>
 
 #include "gait/error.h"
+#include "gait/files/whole_file.h"
 #include "gait/numbers.h"
 
 namespace gait {
@@ -157,18 +158,7 @@ std::string labels_text(const std::vector<LabelSegment>& segments, LabelForm for
 
 void write_labels(const std::vector<LabelSegment>& segments, LabelForm form,
                   const std::filesystem::path& path) {
-  const std::string text = labels_text(segments, form);
-  std::filesystem::path unfinished = path;
-  unfinished += ".part";
-  std::error_code error, ignored;
-  std::ofstream stream(unfinished, std::ios::binary);
-  stream.write(text.data(), static_cast<std::streamsize>(text.size()));
-  stream.close();
-  if (stream) std::filesystem::rename(unfinished, path, error);
-  if (!stream || error) {
-    std::filesystem::remove(unfinished, ignored);
-    throw Error(path.string() + ": cannot be written" + (error ? ": " + error.message() : ""));
-  }
+  write_whole_file(path, labels_text(segments, form));
 }
 
 std::vector<LabelSegment> labels_from_contacts(const std::vector<Contact>& contacts,

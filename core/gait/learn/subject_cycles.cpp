@@ -7,6 +7,7 @@
 #include "gait/learn/speed_space.h"
 #include "gait/motion/contacts.h"
 #include "gait/motion/rotation.h"
+#include "gait/names.h"
 
 namespace gait {
 
@@ -39,13 +40,13 @@ Body body_of_subject(const Body& body, const Clip& clip) {
     const bool bone = i != hips && std::find(below.begin(), below.end(), i) != below.end();
     const int at = clip.skeleton.find(joint.name);
     if (at < 0) {
-      missing += (missing.empty() ? "" : ", ") + joint.name;
+      append_name(missing, joint.name);
       continue;
     }
     const Joint& theirs = clip.skeleton.joints[at];
     const double lengths = joint.offset.norm() * theirs.offset.norm();
     if (bone && lengths > 1e-4 && joint.offset.dot(theirs.offset) < std::cos(other_rig) * lengths)
-      turned += (turned.empty() ? "" : ", ") + joint.name;
+      append_name(turned, joint.name);
     joint.offset = theirs.offset;
     joint.tips = theirs.tips;
   }

@@ -8,6 +8,7 @@
 #include "gait/motion/contacts.h"
 #include "gait/motion/resample.h"
 #include "gait/motion/rotation.h"
+#include "gait/names.h"
 
 namespace gait {
 
@@ -25,15 +26,13 @@ std::vector<int> named_joints(const Skeleton& skeleton, const std::vector<std::s
   for (const std::string& name : names) {
     const int joint = skeleton.find(name);
     if (joint < 0)
-      unknown += (unknown.empty() ? "" : ", ") + name;
+      append_name(unknown, name);
     else if (std::find(joints.begin(), joints.end(), joint) == joints.end())
       joints.push_back(joint);
   }
-  if (!unknown.empty()) {
-    std::string known;
-    for (const Joint& joint : skeleton.joints) known += (known.empty() ? "" : ", ") + joint.name;
-    throw Error(std::string(which) + " joints: unknown: " + unknown + "; the clips have " + known);
-  }
+  if (!unknown.empty())
+    throw Error(std::string(which) + " joints: unknown: " + unknown + "; the clips have " +
+                joined_names(skeleton.joints, &Joint::name));
   std::sort(joints.begin(), joints.end());
   return joints;
 }

@@ -6,6 +6,7 @@
 
 #include "gait/error.h"
 #include "gait/motion/joint_names.h"
+#include "gait/names.h"
 
 namespace gait {
 namespace {
@@ -201,10 +202,9 @@ RoleTable parse_role_table(std::string_view text, const std::string& name) {
     if (joint.empty()) throw Error(here + "expected a joint's name before '=', found none");
     const std::optional<Role> known = role_from_name(role);
     if (!known) {
-      std::string all;
-      for (const auto& entry : kRoleNames)
-        all += (all.empty() ? "" : ", ") + std::string(entry.second);
-      throw Error(here + "expected a role (" + all + "), found '" + std::string(role) + "'");
+      const auto name_of = [](const auto& entry) { return entry.second; };
+      throw Error(here + "expected a role (" + joined_names(kRoleNames, name_of) + "), found '" +
+                  std::string(role) + "'");
     }
     if (!table.emplace(joint, *known).second)
       throw Error(here + "expected each joint once, found '" + joint + "' again");

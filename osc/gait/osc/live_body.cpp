@@ -10,7 +10,8 @@ namespace gait::osc {
 
 namespace {
 
-constexpr double never = -1e9;  // seconds
+constexpr double never = -1e9;            // seconds
+constexpr int most_heading_frames = 512;  // a cycle of 2 s at 240 frames per second
 
 Eigen::Vector3d rest_place(const Skeleton& skeleton, int joint, int above) {
   Eigen::Vector3d place = Eigen::Vector3d::Zero();
@@ -36,7 +37,8 @@ HumanoidBody humanoid_of(const Body& body) {
 LiveBody::LiveBody(std::shared_ptr<const Model> model)
     : model_(std::move(model)),
       filter_(joints_of(*model_)),
-      heading_(model_->body ? model_->body->heading_window : 1),
+      heading_(CausalHeading<double>::over_seconds(model_->body ? model_->body->heading_window : 1,
+                                                   most_heading_frames)),
       input_of_(model_->inputs.size(), -1),
       inputs_(static_cast<std::size_t>(values_of(model_->inputs)), 0) {
   if (!model_->body) return;
@@ -215,7 +217,7 @@ bool LiveBody::take_values(const CapturedFrame& captured) noexcept {
                         .cast<double>();
     seen_[joint] = captured.time;
   }
-  filter_.apply(captured.time, local_);
+  filter(captured.time);
   for (std::size_t joint = 0; joint < local_.size(); ++joint)
     pose_[joint] = local_[joint].cast<float>();
   pose_vector<float>(pose_, references_, values_);
@@ -225,10 +227,15 @@ bool LiveBody::take_values(const CapturedFrame& captured) noexcept {
   return true;
 }
 
+void LiveBody::filter(double time) noexcept {
+  filter_.apply(local_, time - filtered_at_);
+  filtered_at_ = time;
+}
+
 void LiveBody::finish(const CapturedFrame& captured) noexcept {
-  filter_.apply(captured.time, local_);
+  filter(captured.time);
   double heading = 0;
-  if (hips_ >= 0) heading = heading_.advance(captured.time, local_[hips_] * right_to_left_thigh_);
+  if (hips_ >= 0) heading = heading_.advance(local_[hips_] * right_to_left_thigh_, captured.time);
   for (std::size_t joint = 0; joint < local_.size(); ++joint)
     pose_[joint] = static_cast<int>(joint) == hips_
                        ? (about_vertical(-heading) * local_[joint]).cast<float>()

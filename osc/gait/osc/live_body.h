@@ -14,10 +14,10 @@
 #include <vector>
 
 #include "gait/model/model.h"
+#include "gait/motion/heading.h"
 #include "gait/motion/humanoid_body.h"
+#include "gait/motion/one_euro_filter.h"
 #include "gait/motion/sender_calibration.h"
-#include "gait/osc/recent_heading.h"
-#include "gait/osc/rotation_filter.h"
 #include "gait/osc/sender_pose.h"
 
 namespace gait::osc {
@@ -68,6 +68,7 @@ class LiveBody {
   bool take_values(const CapturedFrame& captured) noexcept;
   void find_joints(const CapturedFrame& captured) noexcept;
   void finish(const CapturedFrame& captured) noexcept;
+  void filter(double time) noexcept;
 
   std::shared_ptr<const Model> model_;
   std::optional<HumanoidBody> humanoid_;  // none without a body that has legs
@@ -86,8 +87,9 @@ class LiveBody {
   };
   std::optional<Standing> standing_;  // as calibrated last
   double yaw_ = 0, hold_ = 0.5;
-  RotationFilter filter_;
-  RecentHeading heading_;
+  OneEuroFilter<double> filter_;
+  double filtered_at_ = 0;  // time of the last filtered frame
+  CausalHeading<double> heading_;
 
   HumanoidPose body_pose_;
   std::vector<Eigen::Quaterniond> local_;  // hips in the world

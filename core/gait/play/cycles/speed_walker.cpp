@@ -3,6 +3,8 @@
 #include <algorithm>
 #include <cmath>
 
+#include "gait/motion/smoothing.h"
+
 namespace gait {
 
 namespace {
@@ -26,16 +28,11 @@ float towards(float from, float to, float most) noexcept {
   return from + std::clamp(to - from, -most, most);
 }
 
-float smooth_step(float from, float until, float x) noexcept {
-  const float share = std::clamp((x - from) / (until - from), 0.f, 1.f);
-  return share * share * (3 - 2 * share);
-}
-
 // How freely the stride may change: while one foot swings, it alone takes the change; while both
 // stand, one would slide. Never quite nothing, or a slow walk could not change.
 float freedom(double phase) noexcept {
   const float step = static_cast<float>(2 * phase - std::floor(2 * phase));
-  return 0.2f + 0.8f * smooth_step(0.15f, 0.35f, step) * (1 - smooth_step(0.88f, 1.f, step));
+  return 0.2f + 0.8f * smoothstep(0.15f, 0.35f, step) * (1 - smoothstep(0.88f, 1.f, step));
 }
 
 }  // namespace
@@ -210,7 +207,7 @@ void SpeedWalker::change_speed(float seconds) noexcept {
   }
   if (standing()) phase_ = first_phase;
   const float gain = std::clamp(missing / seconds_to_arrive, -most_gain, most_gain);
-  gaining_ += (gain - gaining_) * (1 - std::exp(-seconds / seconds_to_gain));
+  gaining_ += (gain - gaining_) * first_order_gain(seconds, seconds_to_gain);
   const float change = gaining_ * freedom(phase_) * seconds;
   // Not past what is wanted, whatever gain is left.
   const bool there = (missing > 0) == (change > 0) && std::abs(change) >= std::abs(missing);

@@ -3,6 +3,8 @@
 #include <algorithm>
 #include <cmath>
 
+#include "gait/motion/finite.h"
+
 namespace gait {
 
 namespace {
