@@ -4,6 +4,7 @@
 #include <vector>
 
 #include "gait/model/stream_layout.h"
+#include "gait/names.h"
 
 namespace gait::pd {
 
@@ -14,9 +15,7 @@ int find(const std::vector<std::string>& names, const Arguments& arguments, int 
   const std::string wanted = arguments.symbol(i);
   const auto at = std::ranges::find(names, wanted);
   if (at != names.end()) return static_cast<int>(at - names.begin());
-  std::string known;
-  for (const std::string& name : names) known += (known.empty() ? "" : ", ") + name;
-  arguments.fail("no joint '" + wanted + "'; there are " + known);
+  arguments.fail("no joint '" + wanted + "'; there are " + joined_names(names));
 }
 
 }  // namespace

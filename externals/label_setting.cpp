@@ -1,5 +1,7 @@
 #include "label_setting.h"
 
+#include "gait/names.h"
+
 namespace gait::pd {
 
 namespace {
@@ -10,11 +12,7 @@ int label_named(const Model& model, const std::string& name) {
   return -1;
 }
 
-std::string labels_of(const Model& model) {
-  std::string names;
-  for (const Label& label : model.labels) names += (names.empty() ? "" : ", ") + label.name;
-  return names;
-}
+std::string labels_of(const Model& model) { return joined_names(model.labels, &Label::name); }
 
 }  // namespace
 

@@ -5,6 +5,7 @@
 #include "gait/corpus/demo_model.h"
 #include "gait/error.h"
 #include "gait/model/model_file.h"
+#include "gait/names.h"
 #include "objects.h"
 #include "pd/models.h"
 #include "pd/worker.h"
@@ -101,9 +102,7 @@ class ModelBox final : public ModelUser {
         answer(known);
         return;
       }
-    std::string all;
-    for (const char* known : questions) all += (all.empty() ? "" : ", ") + std::string(known);
-    arguments.fail_at(0, all);
+    arguments.fail_at(0, joined_names(questions));
   }
 
   void reset(const Arguments&) {}

@@ -6,6 +6,7 @@
 #include <vector>
 
 #include "gait/model/model.h"
+#include "gait/names.h"
 #include "pd/arguments.h"
 
 namespace gait::pd {
@@ -18,9 +19,8 @@ inline int stream_argument(const Arguments& arguments, int i, const std::vector<
   const char* const name = arguments.atoms()[static_cast<std::size_t>(i)].a_w.w_symbol->s_name;
   for (std::size_t stream = 0; stream < streams.size(); ++stream)
     if (streams[stream].name == name) return static_cast<int>(stream);
-  std::string known;
-  for (const Stream& stream : streams) known += (known.empty() ? "" : ", ") + stream.name;
-  arguments.fail("no " + std::string(what) + " '" + name + "'; there are " + known);
+  arguments.fail("no " + std::string(what) + " '" + name + "'; there are " +
+                 joined_names(streams, &Stream::name));
 }
 
 }  // namespace gait::pd

@@ -3,6 +3,7 @@
 #include <algorithm>
 
 #include "gait/error.h"
+#include "gait/names.h"
 
 namespace gait::pd {
 
@@ -87,12 +88,9 @@ std::vector<float> StyleSetting::weights(const Model& model) const {
   weights.assign(model.styles.size(), 0);
   for (const auto& [name, weight] : mix_) {
     const auto at = std::ranges::find(model.styles, name);
-    if (at == model.styles.end()) {
-      std::string known;
-      for (const std::string& style : model.styles) known += (known.empty() ? "" : ", ") + style;
+    if (at == model.styles.end())
       throw Error("no style '" + name + "' in " + model.name + "; it has " +
-                  (known.empty() ? "none" : known));
-    }
+                  (model.styles.empty() ? "none" : joined_names(model.styles)));
     weights[static_cast<std::size_t>(at - model.styles.begin())] += static_cast<float>(weight);
   }
   return weights;

@@ -3,6 +3,7 @@
 
 #include "cycle_walking.h"
 #include "gait/error.h"
+#include "gait/names.h"
 #include "gait/play/cycles/style_walker.h"
 #include "style_setting.h"
 
@@ -97,7 +98,7 @@ class StyleWalking final : public CycleWalking {
       std::string cannot;
       for (std::size_t i = 0; i < weights.size(); ++i)
         if (weights[i] > 0 && model.style_space->styles[i].cycles == 0)
-          cannot += (cannot.empty() ? "" : ", ") + model.styles[i];
+          append_name(cannot, model.styles[i]);
       throw Error("no straight cycle of " + cannot + " was captured: it cannot be walked");
     }
   };

@@ -10,7 +10,7 @@
 namespace gait {
 namespace {
 
-constexpr std::array<std::string_view, 6> kChannelNames{"Xposition", "Yposition", "Zposition",
+constexpr std::array<std::string_view, 6> channel_names{"Xposition", "Yposition", "Zposition",
                                                         "Xrotation", "Yrotation", "Zrotation"};
 
 // The shortest text that reads back as the same double; an exponent only where it must be, as some
@@ -66,7 +66,7 @@ class HierarchyWriter {
     line(depth + 1) += "CHANNELS " + std::to_string(file_.channels[index].size());
     for (const Channel channel : file_.channels[index]) {
       text_ += ' ';
-      text_ += kChannelNames[static_cast<std::size_t>(channel)];
+      text_ += channel_names[static_cast<std::size_t>(channel)];
     }
     text_ += '\n';
     for (const Eigen::Vector3d& tip : joint.tips) {

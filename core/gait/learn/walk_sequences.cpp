@@ -70,7 +70,7 @@ Body body_of(const Clip& clip, const WalkOptions& options) {
   return body;
 }
 
-// A clip seen through the body: its poses, and its steps at the model's rate.
+// A clip on the body: its poses, and its steps at the model's rate.
 struct Seen {
   std::vector<int> matched;
   double cycle_seconds = 0;
@@ -114,8 +114,8 @@ std::vector<Eigen::Quaterniond> references_of(const std::vector<Seen>& seen, int
   return references;
 }
 
-// How far knees and elbows bent, and about which axes, over all frames of all used clips but for
-// the one in a thousand at either end: what a frame of a capture that went wrong would say.
+// Axes and ranges of knees and elbows over all frames of all used clips, without one frame in a
+// thousand at either end of the range: these may be errors of the capture.
 std::vector<Hinge> hinges_of(const std::vector<Seen>& seen, const Body& body) {
   std::vector<Hinge> hinges;
   for (Hinge hinge : find_hinges(body.skeleton, body_roles(body))) {

@@ -1,9 +1,9 @@
-// Heading: where a walk goes. An angle about the vertical (radians), 0 along +Z, growing towards
-// +X.
+// Heading: the direction of a walk, an angle about the vertical in radians, 0 along +Z, growing
+// towards +X.
 //
-// It is slow by definition: the direction of travel over one cycle, or the facing direction (normal
-// to the line from thigh to thigh, averaged over a cycle) when the root hardly travels. The pelvis'
-// own turning stays in the hips' rotation.
+// It changes slowly by definition: it is the direction of travel over one cycle or, when the root
+// hardly travels, the facing direction (the normal to the line from thigh to thigh) averaged over a
+// cycle. The pelvis' own rotation within a cycle stays in the hips' rotation.
 #pragma once
 
 #include <algorithm>
@@ -20,7 +20,7 @@ inline Eigen::Vector3d heading_direction(double heading) {
   return {std::sin(heading), 0, std::cos(heading)};
 }
 
-// Which way a body faces whose line from the right thigh (or shoulder) to the left is this.
+// Facing direction of a body, from the vector between its right and its left thigh (or shoulder).
 inline double heading_across(const Eigen::Vector3d& right_to_left) {
   return std::atan2(-right_to_left.z(), right_to_left.x());
 }

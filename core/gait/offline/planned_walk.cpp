@@ -126,7 +126,7 @@ SpeedWalk speed_walk(const PlayModel& played, const SpeedWalkPlan& plan) {
   SpeedWalker walker(played.speeds());
   if (!(plan.seconds > 0) || !std::isfinite(plan.from) || !std::isfinite(plan.to))
     throw Error("expected a plan of finite speeds and some seconds for the speed walker");
-  if (!plan.subject.empty() && walker.set_subject(plan.subject) == Taken::refused) {
+  if (!plan.subject.empty() && walker.set_subject(plan.subject) == ControlResult::refused) {
     const auto name_of = [](const auto& subject) { return subject.subject; };
     throw Error("model " + model->name + ": no subject is called '" + plan.subject + "'; it has " +
                 joined_names(walker.subjects(), name_of));

@@ -13,13 +13,6 @@ namespace {
 constexpr double never = -1e9;            // seconds
 constexpr int most_heading_frames = 512;  // a cycle of 2 s at 240 frames per second
 
-Eigen::Vector3d rest_place(const Skeleton& skeleton, int joint, int above) {
-  Eigen::Vector3d place = Eigen::Vector3d::Zero();
-  for (; joint >= 0 && joint != above; joint = skeleton.joints[joint].parent)
-    place += skeleton.joints[joint].offset;
-  return place;
-}
-
 int joints_of(const Model& model) { return model.body ? model.body->skeleton.size() : 0; }
 
 int input_named(const Model& model, const std::string& name) {
@@ -47,8 +40,8 @@ LiveBody::LiveBody(std::shared_ptr<const Model> model)
   if (roles.has_legs()) {
     humanoid_.emplace(humanoid_of(body));
     hips_ = roles.hips;
-    right_to_left_thigh_ = rest_place(body.skeleton, roles.left.thigh, roles.hips) -
-                           rest_place(body.skeleton, roles.right.thigh, roles.hips);
+    right_to_left_thigh_ = body.skeleton.place_at_rest(roles.left.thigh, roles.hips) -
+                           body.skeleton.place_at_rest(roles.right.thigh, roles.hips);
     for (int joint = roles.left.foot; joint != roles.hips;
          joint = body.skeleton.joints[joint].parent)
       rest_height_ += body.skeleton.joints[joint].offset.norm();
@@ -104,7 +97,7 @@ bool LiveBody::take_humanoid(const CapturedFrame& captured) noexcept {
   if (calibrate_) sender_.judge_axes_again();
   if (!sender_.take(captured)) return false;
   if (calibrate_) {
-    // Held until the hips are known: a frame may have come in pieces.
+    // Waits until the hips are known: a frame may arrive in pieces.
     if (calibration_.set(sender_.world(), humanoid_->calibration(*calibrate_))) {
       standing_ = Standing{sender_.world(), *calibrate_};
       calibrate_.reset();
@@ -121,7 +114,7 @@ bool LiveBody::take_humanoid(const CapturedFrame& captured) noexcept {
     double seen = never;
     if (bone >= 0 && humanoid_->driven(body_pose_, static_cast<int>(joint))) {
       seen = sender_.seen(bone);
-      // A spine goes by all of its bones.
+      // A spine follows all of its bones.
       if (bone == index_of(Bone::spine))
         for (int other = bone; other <= index_of(Bone::upper_chest); ++other)
           if (body_pose_.turned[other]) seen = std::max(seen, sender_.seen(other));
@@ -166,7 +159,7 @@ bool LiveBody::take_named(const CapturedFrame& captured) noexcept {
                       exponential_map<double>({named.vector[0], named.vector[1], named.vector[2]});
       continue;
     }
-    // Over joints of the sender's rig that the model does not have, up to the model's parent.
+    // Includes joints of the sender's rig that the model lacks, up to the parent in the model.
     const int parent = skeleton.joints[joint].parent;
     const int end = static_cast<int>(joint) == hips_ || parent < 0 ? -1 : named_of_[parent];
     Eigen::Quaterniond turned = rotation(named);

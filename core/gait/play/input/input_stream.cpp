@@ -9,8 +9,6 @@
 
 namespace gait {
 
-namespace {}  // namespace
-
 InputStream::InputStream(std::shared_ptr<const Model> model, double longest_gap)
     : model_(std::move(model)),
       layout_(StreamLayout::of_inputs(*model_)),

@@ -3,8 +3,6 @@
 #include <algorithm>
 #include <cmath>
 
-#include "gait/motion/finite.h"
-
 namespace gait {
 
 namespace {
