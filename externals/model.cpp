@@ -3,6 +3,7 @@
 #include <string>
 
 #include "gait/corpus/demo_model.h"
+#include "gait/names.h"
 #include "objects.h"
 #include "pd/model_owner.h"
 
@@ -76,9 +77,7 @@ class ModelBox final : public ModelOwner {
         answer(known);
         return;
       }
-    std::string all;
-    for (const char* known : questions) all += (all.empty() ? "" : ", ") + std::string(known);
-    arguments.fail_at(0, all);
+    arguments.fail_at(0, joined_names(questions));
   }
 
   void reset(const Arguments&) {}

@@ -1,5 +1,6 @@
 // [gait.pca NAME speed]: the speed walker's messages.
 #include "gait/error.h"
+#include "gait/names.h"
 #include "gait/play/cycles/speed_walker.h"
 #include "pca_walking.h"
 
@@ -21,7 +22,8 @@ class SpeedWalking final : public WalkingBy<SpeedPlaying> {
     if (selector == "speed") {
       arguments.expect_count(1);
       speed_ = arguments.number(0);
-      if (playing_ && playing_->walker.set_speed(static_cast<float>(speed_)) == Taken::clamped)
+      if (playing_ &&
+          playing_->walker.set_speed(static_cast<float>(speed_)) == ControlResult::clamped)
         say_clamped(arguments, "0 to " + number_text(10 / 3.6) +
                                    " m/s (10 km/h), less on legs shorter than 0.73 m");
     } else if (selector == "leg") {
@@ -31,12 +33,12 @@ class SpeedWalking final : public WalkingBy<SpeedPlaying> {
       if (!playing_) return true;
       if (leg_ == 0)
         playing_->walker.set_own_leg_length();
-      else if (playing_->walker.set_leg_length(leg_) == Taken::clamped)
+      else if (playing_->walker.set_leg_length(leg_) == ControlResult::clamped)
         say_clamped(arguments, "0.3 to 1.5 m; 0: the subject's own");
     } else if (selector == "subject") {
       arguments.expect_count(1);
       const std::string subject = arguments.text(0);
-      if (playing_ && playing_->walker.set_subject(subject) == Taken::refused)
+      if (playing_ && playing_->walker.set_subject(subject) == ControlResult::refused)
         arguments.fail(no_subject(playing_->walker, subject, model_->model->name));
       subject_ = subject;
     } else if (selector == "law") {
@@ -89,7 +91,7 @@ class SpeedWalking final : public WalkingBy<SpeedPlaying> {
   }
   void fit(SpeedPlaying& fresh, const Model& model) const override {
     SpeedWalker& walker = fresh.walker;
-    if (!subject_.empty() && walker.set_subject(subject_) == Taken::refused)
+    if (!subject_.empty() && walker.set_subject(subject_) == ControlResult::refused)
       throw Error(no_subject(walker, subject_, model.name));
     walker.set_speed(static_cast<float>(speed_));
     walker.set_cadence(cadence_);
@@ -100,10 +102,8 @@ class SpeedWalking final : public WalkingBy<SpeedPlaying> {
 
   static std::string no_subject(const SpeedWalker& walker, const std::string& subject,
                                 const std::string& model) {
-    std::string known;
-    for (const SubjectCyclesOverSpeed& one : walker.subjects())
-      known += (known.empty() ? "" : ", ") + one.subject;
-    return "no subject '" + subject + "' in " + model + "; it has " + known;
+    return "no subject '" + subject + "' in " + model + "; it has " +
+           joined_names(walker.subjects(), &SubjectCyclesOverSpeed::subject);
   }
   static void say_clamped(const Arguments& arguments, const std::string& range) {
     logpost(nullptr, 2, "gait.pca: %s: %g is clamped to %s",

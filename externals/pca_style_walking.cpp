@@ -2,6 +2,7 @@
 #include <map>
 
 #include "gait/error.h"
+#include "gait/names.h"
 #include "gait/play/cycles/style_walker.h"
 #include "pca_walking.h"
 #include "pd/style_setting.h"
@@ -26,7 +27,7 @@ struct StyleSettings {
     std::string cannot;
     for (std::size_t i = 0; i < weights.size(); ++i)
       if (weights[i] > 0 && model.style_space->styles[i].cycles == 0)
-        cannot += (cannot.empty() ? "" : ", ") + model.styles[i];
+        append_name(cannot, model.styles[i]);
     throw Error("no straight cycle of " + cannot + " was captured: it cannot be walked");
   }
 };

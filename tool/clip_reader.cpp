@@ -4,6 +4,7 @@
 #include <cstdio>
 
 #include "gait/error.h"
+#include "gait/names.h"
 #include "option_kinds.h"
 
 namespace gait::tool {
@@ -67,9 +68,8 @@ ReadClip read_clip(const std::filesystem::path& path, const ClipReading& reading
 void warn_of_roles(const std::string& command, const ClipReading& reading,
                    const std::vector<std::string>& without_joint) {
   if (without_joint.empty()) return;
-  std::string names;
-  for (const std::string& name : without_joint) names += (names.empty() ? "" : ", ") + name;
-  print_warnings(command, {reading.roles + ": names joints that no clip has: " + names});
+  print_warnings(
+      command, {reading.roles + ": names joints that no clip has: " + joined_names(without_joint)});
 }
 
 }  // namespace gait::tool

@@ -10,6 +10,7 @@
 #include "gait/judge/stream_summary.h"
 #include "gait/model/model_fields.h"
 #include "gait/model/model_words.h"
+#include "gait/names.h"
 #include "json_report.h"
 #include "number_words.h"
 #include "option_kinds.h"
@@ -27,12 +28,6 @@ struct InfoOptions {
   std::string model;
   bool json = false;
 };
-
-std::string joined(const std::vector<std::string>& words) {
-  std::string text;
-  for (const std::string& word : words) text += (text.empty() ? "" : ", ") + word;
-  return text;
-}
 
 std::vector<std::string> successors_of(const Model& model, const Label& label) {
   std::vector<std::string> names;
@@ -59,14 +54,14 @@ void print_streams(const char* what, const std::vector<Stream>& streams,
   std::vector<std::string> words;
   for (std::size_t i = 0; i < streams.size(); ++i)
     words.push_back(streams[i].name + " " + number(told_deviation(streams[i], summaries[i])));
-  print_row("", joined(words));
+  print_row("", joined_names(words));
 }
 
 void print_labels(const Model& model) {
   print_row("labels", std::to_string(model.labels.size()) + ", with " +
                           std::to_string(model.states()) + " states together");
   for (const Label& label : model.labels) {
-    const std::string next = joined(successors_of(model, label));
+    const std::string next = joined_names(successors_of(model, label));
     std::printf("  %-12s %zu states, %.3f s (deviation %.3f, from %.3f to %.3f), then %s\n",
                 label.name.c_str(), label.states.size(), label.duration, label.duration_deviation,
                 label.shortest, label.longest, next.empty() ? "nothing" : next.c_str());
@@ -121,7 +116,7 @@ void print_hinges(const Body& body) {
     char angles[48];
     std::snprintf(angles, sizeof angles, " %.0f to %.0f", hinge.least * degrees,
                   hinge.most * degrees);
-    text += (text.empty() ? "" : ", ") + body.skeleton.joints[hinge.joint].name + angles;
+    append_name(text, body.skeleton.joints[hinge.joint].name + angles);
   }
   if (!text.empty()) print_row("bends", text + " degrees");
 }
@@ -139,12 +134,12 @@ void print_text(const Model& model) {
                 model.input.statics());
   std::string history;
   for (const int lag : model.input.lags)
-    history += (history.empty() ? "" : ", ") + number(1000 * lag / model.frame_rate);
+    append_name(history, number(1000 * lag / model.frame_rate));
   print_row("", history.empty() ? "each frame by itself" : "compared with " + history + " ms ago");
   print_streams("outputs", model.outputs, summaries_of_outputs(model), model.output.values,
                 model.output.statics());
   print_labels(model);
-  print_row("styles", model.styles.empty() ? "none" : joined(model.styles));
+  print_row("styles", model.styles.empty() ? "none" : joined_names(model.styles));
   std::printf("\nPlayed, unless told otherwise:\n");
   print_play(model.play);
   print_spaces(model);

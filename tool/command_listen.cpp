@@ -8,11 +8,11 @@
 #include "commands.h"
 #include "gait/error.h"
 #include "gait/files/bvh.h"
+#include "gait/files/whole_file.h"
 #include "gait/osc/receiver.h"
 #include "gait/osc/recording.h"
 #include "interrupt.h"
 #include "option_kinds.h"
-#include "output_file.h"
 
 namespace gait::tool {
 
@@ -41,7 +41,7 @@ class Recorder final : public osc::FrameSink {
 
 void listen(const ListenOptions& options) {
   const Interrupt interrupt;
-  OutputFile output(options.output);
+  WholeFile output(options.output);
   osc::Receiver receiver(
       {.port = options.port,
        .any = options.any,

@@ -8,9 +8,9 @@
 #include "commands.h"
 #include "decision_table.h"
 #include "gait/corpus/demo_model.h"
+#include "gait/files/whole_file.h"
 #include "gait/offline/reconstructed_file.h"
 #include "option_kinds.h"
-#include "output_file.h"
 #include "play_options.h"
 
 namespace gait::tool {
@@ -26,8 +26,8 @@ struct ReconstructOptions {
 };
 
 void reconstruct(const ReconstructOptions& options) {
-  OutputFile output(options.output);
-  std::optional<OutputFile> table;
+  WholeFile output(options.output);
+  std::optional<WholeFile> table;
   if (!options.table.empty()) table.emplace(options.table);
 
   const auto model = std::make_shared<const Model>(model_named(options.model));

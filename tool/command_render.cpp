@@ -63,8 +63,8 @@ void render_speeds(const RenderOptions& options, const std::string& ending) {
   if (ending == ".mp4" || options.strobe > 0 || !options.compare.empty())
     throw UsageError("--speeds gives a picture (.png, .svg) without --strobe or --compare");
   SpeedGrid grid;
-  grid.speeds = speeds_said(options.speeds, ',', "--speeds");
-  if (!options.legs.empty()) grid.leg_lengths = lengths_said(options.legs, "--legs");
+  grid.speeds = parse_speeds(options.speeds, ',', "--speeds");
+  if (!options.legs.empty()) grid.leg_lengths = parse_lengths(options.legs, "--legs");
   grid.camera_degrees = camera_degrees(options.view);
   const auto model = std::make_shared<const Model>(model_named(options.clips.front()));
   write_speed_grid(model, grid, options.output);

@@ -27,7 +27,7 @@ struct StreamOptions {
   bool loop = false;
 };
 
-osc::Destination destination_said(const std::string& to) {
+osc::Destination parse_destination(const std::string& to) {
   const std::size_t colon = to.rfind(':');
   int port = 0;
   try {
@@ -97,7 +97,7 @@ class FrameTeller {
 
 void stream(const StreamOptions& options) {
   const Interrupt interrupt;
-  const osc::Destination to = destination_said(options.to);
+  const osc::Destination to = parse_destination(options.to);
   const ReadClip read = read_clip(options.input, options.reading, "stream");
   if (read.clip.frames() == 0) throw Error(options.input + ": expected frames, found none");
   const Clip clip = options.rate ? resampled(read.clip, *options.rate) : read.clip;

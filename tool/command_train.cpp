@@ -12,13 +12,13 @@
 
 #include "commands.h"
 #include "gait/error.h"
+#include "gait/files/whole_file.h"
 #include "gait/learn/parallel.h"
 #include "gait/model/model_file.h"
 #include "gait/motion/rest_calibration.h"
 #include "gait/teach/walk_model.h"
 #include "interrupt.h"
 #include "option_kinds.h"
-#include "output_file.h"
 #include "play_options.h"
 #include "progress.h"
 #include "train_report.h"
@@ -115,7 +115,7 @@ LearntWalks learn_from(const WalksRead& read, const TrainOptions& options,
 
 void train(const TrainOptions& options) {
   const auto start = std::chrono::steady_clock::now();
-  OutputFile output(options.output);
+  WholeFile output(options.output);
   const Interrupt interrupt;
   WalksRead read;
   LearntWalks learnt;

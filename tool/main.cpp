@@ -10,6 +10,7 @@
 
 #include "commands.h"
 #include "gait/error.h"
+#include "gait/names.h"
 
 namespace {
 
@@ -24,10 +25,8 @@ void print_error(const std::string& who, std::string message) {
 }
 
 std::string names_of(const std::vector<Command>& commands) {
-  std::string names;
-  for (const Command& command : commands)
-    names += (names.empty() ? "" : ", ") + command.app->get_name();
-  return names;
+  return gait::joined_names(commands,
+                            [](const Command& command) { return command.app->get_name(); });
 }
 
 int refuse(const CLI::App& program, const std::vector<Command>& commands, int argc, char** argv,

@@ -19,8 +19,8 @@ std::vector<std::string> parts_of(const std::string& text, char separator) {
 
 }  // namespace
 
-std::vector<double> speeds_said(const std::string& text, char separator,
-                                const std::string& option) {
+std::vector<double> parse_speeds(const std::string& text, char separator,
+                                 const std::string& option) {
   std::vector<double> speeds;
   double unit = 1;  // m/s
   const std::vector<std::string> parts = parts_of(text, separator);
@@ -40,7 +40,7 @@ std::vector<double> speeds_said(const std::string& text, char separator,
   return speeds;
 }
 
-std::vector<double> lengths_said(const std::string& text, const std::string& option) {
+std::vector<double> parse_lengths(const std::string& text, const std::string& option) {
   std::vector<double> lengths;
   for (const std::string& part : parts_of(text, ',')) {
     const std::optional<double> length = number_in(part);

@@ -8,9 +8,7 @@
 
 namespace gait::tool {
 
-namespace {}  // namespace
-
-std::vector<StyleShare> mix_said(const std::string& text, const std::string& option) {
+std::vector<StyleShare> parse_mix(const std::string& text, const std::string& option) {
   std::vector<StyleShare> mix;
   if (text.find('=') == std::string::npos) return {{text, 1}};
   std::istringstream stream(text);
@@ -25,13 +23,13 @@ std::vector<StyleShare> mix_said(const std::string& text, const std::string& opt
   return mix;
 }
 
-StyleChange change_said(const std::string& text, const std::string& option) {
+StyleChange parse_change(const std::string& text, const std::string& option) {
   const std::size_t at = text.rfind('@');
   const std::optional<double> seconds =
       at == std::string::npos ? std::nullopt : number_in(text.substr(at + 1));
   if (!seconds || *seconds < 0 || at == 0)
     throw UsageError(option + " " + text + ": expected STYLE@SECONDS");
-  return {*seconds, mix_said(text.substr(0, at), option)};
+  return {*seconds, parse_mix(text.substr(0, at), option)};
 }
 
 }  // namespace gait::tool

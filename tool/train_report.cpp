@@ -4,6 +4,7 @@
 #include <map>
 #include <numbers>
 
+#include "gait/names.h"
 #include "json_report.h"
 
 namespace gait::tool {
@@ -34,7 +35,7 @@ std::vector<std::string> words_of_caution(const TrainReport& report) {
     used += use.used, styled += use.used && !use.style.empty();
   std::string single;
   for (const auto& [style, count] : clips)
-    if (count == 1) single += (single.empty() ? "" : ", ") + style;
+    if (count == 1) append_name(single, style);
   if (!single.empty())
     words.push_back("styles with one clip, whose recognition could not be validated: " + single);
   if (clips.size() == 1) words.push_back("one style alone: there is nothing to tell apart");

@@ -12,6 +12,7 @@
 #include "file_ending.h"
 #include "gait/error.h"
 #include "gait/files/label_file.h"
+#include "gait/names.h"
 #include "manifest.h"
 #include "name_pattern.h"
 #include "option_kinds.h"
@@ -76,9 +77,7 @@ class Said {
   const Manifest& manifest() const { return manifest_; }
 
   NameFields of(const fs::path& path, std::string& remark) const {
-    const auto add = [&](const std::string& text) {
-      remark += (remark.empty() ? "" : ", ") + text;
-    };
+    const auto add = [&](const std::string& text) { append_name(remark, text); };
     const auto named = pattern_.read(path.filename().string());
     if (!named && pattern_given_) add("its name does not fit --label");
     NameFields fields = named.value_or(NameFields{});
@@ -135,7 +134,7 @@ std::vector<Contact> contacts_beside(const fs::path& path, const Clip& clip, std
     }
     const std::string name = labels.filename().string();
     if (contacts.empty()) {
-      remark += (remark.empty() ? "" : ", ") + name + " has no steps, contacts are found";
+      append_name(remark, name + " has no steps, contacts are found");
       return contacts;
     }
     // The last step may end with the clip.
@@ -148,7 +147,7 @@ std::vector<Contact> contacts_beside(const fs::path& path, const Clip& clip, std
       throw Error(labels.string() + text + " (labels of " + path.filename().string() +
                   "; --no-labels leaves them out)");
     }
-    remark += (remark.empty() ? "" : ", ") + std::string("contacts from ") + name;
+    append_name(remark, "contacts from " + name);
     return contacts;
   }
   return {};

@@ -3,8 +3,8 @@
 #include <numbers>
 
 #include "gait/files/bvh.h"
+#include "gait/files/whole_file.h"
 #include "option_kinds.h"
-#include "output_file.h"
 
 namespace gait::tool {
 
@@ -22,7 +22,7 @@ void add_walk_output(CLI::App& app, WalkOutput& output) {
 CLI::Validator walk_seconds() { return within(0.1, 7200); }
 
 void write_walk(const WalkOutput& output, const std::function<Clip()>& walk) {
-  OutputFile file(output.path);
+  WholeFile file(output.path);
   write_bvh(bvh_from_clip(walk()), file.part());
   file.keep();
 }

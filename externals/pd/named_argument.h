@@ -7,6 +7,7 @@
 #include <string_view>
 #include <vector>
 
+#include "gait/names.h"
 #include "pd/arguments.h"
 
 namespace gait::pd {
@@ -20,9 +21,7 @@ const std::string& name_of(const Named& named) {
 // All names, with commas between them.
 template <class Named>
 std::string names_of(const std::vector<Named>& all) {
-  std::string names;
-  for (const Named& one : all) names += (names.empty() ? "" : ", ") + name_of(one);
-  return names;
+  return joined_names(all, [](const Named& one) { return name_of(one); });
 }
 
 // The index of the one of this name; -1 when there is none.

@@ -18,24 +18,24 @@ namespace {
 using testing::replaced;
 using testing::small_bvh;
 
-constexpr double kDegree = std::numbers::pi / 180;
-constexpr double kReadBack = 1e-4 * kDegree;  // what reading back must keep to
-const std::array<std::string, 3> kNames{"Xrotation", "Yrotation", "Zrotation"};
-const std::array<std::array<int, 3>, 12> kOrders{{{0, 1, 2},
-                                                  {0, 2, 1},
-                                                  {1, 0, 2},
-                                                  {1, 2, 0},
-                                                  {2, 0, 1},
-                                                  {2, 1, 0},
-                                                  {0, 1, 0},
-                                                  {0, 2, 0},
-                                                  {1, 0, 1},
-                                                  {1, 2, 1},
-                                                  {2, 0, 2},
-                                                  {2, 1, 2}}};
+constexpr double degree = std::numbers::pi / 180;
+constexpr double read_back = 1e-4 * degree;  // what reading back must keep to
+const std::array<std::string, 3> names{"Xrotation", "Yrotation", "Zrotation"};
+const std::array<std::array<int, 3>, 12> orders{{{0, 1, 2},
+                                                 {0, 2, 1},
+                                                 {1, 0, 2},
+                                                 {1, 2, 0},
+                                                 {2, 0, 1},
+                                                 {2, 1, 0},
+                                                 {0, 1, 0},
+                                                 {0, 2, 0},
+                                                 {1, 0, 1},
+                                                 {1, 2, 1},
+                                                 {2, 0, 2},
+                                                 {2, 1, 2}}};
 
 std::string order_name(const std::array<int, 3>& order) {
-  return kNames[order[0]] + " " + kNames[order[1]] + " " + kNames[order[2]];
+  return names[order[0]] + " " + names[order[1]] + " " + names[order[2]];
 }
 
 // One joint with rotations of this order, that many frames of zeros.
@@ -49,7 +49,7 @@ BvhFile one_joint(const std::string& channels, int frames) {
 
 Eigen::Quaterniond euler(const std::array<int, 3>& order, double a, double b, double c) {
   const auto about = [](int axis, double angle) {
-    return Eigen::Quaterniond(Eigen::AngleAxisd(angle * kDegree, Eigen::Vector3d::Unit(axis)));
+    return Eigen::Quaterniond(Eigen::AngleAxisd(angle * degree, Eigen::Vector3d::Unit(axis)));
   };
   return about(order[0], a) * about(order[1], b) * about(order[2], c);
 }
@@ -65,7 +65,7 @@ double largest_error(const BvhFile& file, const std::vector<Eigen::Quaterniond>&
 TEST(BvhWriting, any_rotation_reads_back_in_any_order_of_axes) {
   std::mt19937 random(7);
   std::normal_distribution<double> normal;
-  for (const auto& order : kOrders) {
+  for (const auto& order : orders) {
     BvhFile file = one_joint(order_name(order), 2000);
     std::vector<Eigen::Quaterniond> rotations;
     for (int frame = 0; frame < 2000; ++frame) {
@@ -74,12 +74,12 @@ TEST(BvhWriting, any_rotation_reads_back_in_any_order_of_axes) {
               .normalized());
       set_rotation(file, frame, 0, rotations.back());
     }
-    EXPECT_LT(largest_error(file, rotations), kReadBack) << order_name(order);
+    EXPECT_LT(largest_error(file, rotations), read_back) << order_name(order);
   }
 }
 
 TEST(BvhWriting, rotations_at_and_near_gimbal_lock_read_back) {
-  for (const auto& order : kOrders) {
+  for (const auto& order : orders) {
     BvhFile file = one_joint(order_name(order), 0);
     std::vector<Eigen::Quaterniond> rotations;
     for (const double middle : {0.0, 90.0, 180.0, -90.0, 270.0})
@@ -90,13 +90,13 @@ TEST(BvhWriting, rotations_at_and_near_gimbal_lock_read_back) {
     for (std::size_t frame = 0; frame < rotations.size(); ++frame)
       set_rotation(file, static_cast<int>(frame), 0, rotations[frame]);
     EXPECT_TRUE(file.values.allFinite());
-    EXPECT_LT(largest_error(file, rotations), kReadBack) << order_name(order);
+    EXPECT_LT(largest_error(file, rotations), read_back) << order_name(order);
   }
 }
 
 // Angles that wind far beyond a turn and through the other solution's range come back as they were.
 TEST(BvhWriting, curves_do_not_jump) {
-  for (const auto& order : kOrders) {
+  for (const auto& order : orders) {
     BvhFile file = one_joint(order_name(order), 1000);
     const bool proper = order[0] == order[2];
     Eigen::MatrixXd expected(1000, 3);
@@ -212,7 +212,7 @@ TEST(BvhWriting, a_clip_from_nowhere_becomes_a_file_with_the_same_motion) {
     for (int frame = 0; frame < 20; ++frame) {
       EXPECT_LT((expected.positions[frame * 5 + joint] - found.positions[frame * 5 + there]).norm(),
                 1e-7);
-      EXPECT_LT(angle_between(clip.pose(frame)[joint], again.pose(frame)[there]), kReadBack);
+      EXPECT_LT(angle_between(clip.pose(frame)[joint], again.pose(frame)[there]), read_back);
     }
   }
 }
@@ -234,7 +234,7 @@ TEST(BvhWriting, real_motion_set_anew_reads_back) {
     double largest = 0;
     for (std::size_t i = 0; i < clip.rotations.size(); ++i)
       largest = std::max(largest, angle_between(clip.rotations[i], again.rotations[i]));
-    EXPECT_LT(largest, kReadBack) << name;
+    EXPECT_LT(largest, read_back) << name;
     EXPECT_EQ(again.translations, clip.translations) << name;
   }
 }

@@ -73,13 +73,12 @@ BodyFrame guess(const Clip& clip, const BodyFrameOverride& said = {}) {
   return guess_body_frame(clip, find_roles(clip.skeleton), said);
 }
 
-const std::array<Eigen::Vector3d, 5> kUps{
-    {{0, 1, 0}, {0, 0, 1}, {1, 0, 0}, {0, 0, -1}, {-1, 0, 0}}};
+const std::array<Eigen::Vector3d, 5> ups{{{0, 1, 0}, {0, 0, 1}, {1, 0, 0}, {0, 0, -1}, {-1, 0, 0}}};
 
 TEST(BodyFrame, any_unit_and_upright_axis_comes_out_in_metres_with_y_up) {
   const Clip clip = person();
   for (const char* unit : {"m", "cm", "mm", "in", "ft", "dm", "cmu"})
-    for (const Eigen::Vector3d& up : kUps) {
+    for (const Eigen::Vector3d& up : ups) {
       const double metres = metres_per_unit_named(unit);
       const auto turn = turn_between(Eigen::Vector3d::UnitY(), up);
       const Clip file = seen_from(clip, turn, 1 / metres);

@@ -96,5 +96,15 @@ TEST(CausalHeading, weighs_every_frame_alike_and_survives_one_without_direction)
   EXPECT_TRUE(std::isfinite(CausalHeading<double>(0).advance({0, 0, 0})));
 }
 
+TEST(CausalHeading, is_the_same_over_seconds_as_over_frames_at_a_fixed_rate) {
+  CausalHeading<double> frames(33), seconds = CausalHeading<double>::over_seconds(1.1, 512);
+  for (int i = 0; i < 200; ++i) {
+    const Vector3<double> across = about_vertical(std::sin(0.1 * i)) * Vector3<double>(1, 0, 0);
+    EXPECT_NEAR(seconds.advance(across, i / 30.0), frames.advance(across), 1e-12) << i;
+  }
+  EXPECT_NEAR(seconds.advance(about_vertical(2.0) * Vector3<double>(1, 0, 0), 0), 2, 1e-12)
+      << "time that goes back begins anew";
+}
+
 }  // namespace
 }  // namespace gait

@@ -45,14 +45,14 @@ struct Expected {
   std::array<const char*, 19> names;
 };
 
-constexpr std::array<Role, 19> kOrder{
+constexpr std::array<Role, 19> order{
     Role::hips,           Role::left_thigh, Role::right_thigh, Role::left_shank,
     Role::right_shank,    Role::left_foot,  Role::right_foot,  Role::left_toes,
     Role::right_toes,     Role::neck,       Role::head,        Role::left_shoulder,
     Role::right_shoulder, Role::left_arm,   Role::right_arm,   Role::left_forearm,
     Role::right_forearm,  Role::left_hand,  Role::right_hand};
 
-const std::vector<Expected> kRigs{
+const std::vector<Expected> rigs{
     {"Bandai-Namco",
      "joint_Root(Hips(Spine(Chest(Neck(Head) Shoulder_L(UpperArm_L(LowerArm_L(Hand_L))) "
      "Shoulder_R(UpperArm_R(LowerArm_R(Hand_R))))) UpperLeg_L(LowerLeg_L(Foot_L(Toes_L))) "
@@ -169,13 +169,13 @@ const std::vector<Expected> kRigs{
 };
 
 TEST(JointRoles, the_usual_makers_names_are_understood) {
-  for (const Expected& expected : kRigs) {
+  for (const Expected& expected : rigs) {
     const Skeleton skeleton = rig(expected.rig);
     const JointRoles roles = find_roles(skeleton);
-    for (std::size_t i = 0; i < kOrder.size(); ++i) {
-      const int joint = roles.joint(kOrder[i]);
+    for (std::size_t i = 0; i < order.size(); ++i) {
+      const int joint = roles.joint(order[i]);
       EXPECT_EQ(joint < 0 ? "-" : skeleton.joints[joint].name, expected.names[i])
-          << expected.maker << ": " << role_name(kOrder[i]);
+          << expected.maker << ": " << role_name(order[i]);
     }
     EXPECT_TRUE(roles.has_legs()) << expected.maker;
     EXPECT_EQ(roles.hips, roles.joint(Role::hips));

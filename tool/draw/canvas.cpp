@@ -7,7 +7,7 @@
 
 #include "file_ending.h"
 #include "gait/error.h"
-#include "output_file.h"
+#include "gait/files/whole_file.h"
 
 namespace gait::tool {
 
@@ -156,7 +156,7 @@ void write_picture(const std::filesystem::path& path, double width, double heigh
                    const std::function<void(Canvas&)>& draw) {
   const int columns = static_cast<int>(std::lround(width));
   const int rows = static_cast<int>(std::lround(height));
-  OutputFile output(path);
+  WholeFile output(path);
   if (ending_of(path) == ".svg") {
     Canvas canvas = Canvas::of_svg(output.part(), columns, rows);
     draw(canvas);

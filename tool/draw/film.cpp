@@ -7,8 +7,8 @@
 #include "draw/ffmpeg.h"
 #include "draw/legend.h"
 #include "draw/stick_figure.h"
+#include "gait/files/whole_file.h"
 #include "number_words.h"
-#include "output_file.h"
 
 namespace gait::tool {
 
@@ -105,7 +105,7 @@ void write_film(const std::vector<WalkView>& views, const WalkView* compared,
   // 120 a second become every second frame, not 60 uneven ones.
   if (rate > fastest) rate /= std::ceil(rate / fastest - 1e-3);
 
-  OutputFile output(path);
+  WholeFile output(path);
   Canvas canvas = Canvas::of_pixels(width, height);
   Ffmpeg ffmpeg(output.part(), width, height, rate);
   const int frames = 1 + static_cast<int>(std::lround(seconds * rate));

@@ -5,6 +5,7 @@
 
 #include "draw/model_figures.h"
 #include "gait/error.h"
+#include "gait/names.h"
 #include "gait/play/cycles/speed_walker.h"
 
 namespace gait::tool {
@@ -37,7 +38,7 @@ std::vector<Lines> all_lines(const Model& model, const std::string& only) {
   std::string known;
   const bool shared = model.shared_speed_space.has_value() && only.empty();
   for (const SpeedSpace& subject : speeds_of(model)) {
-    known += (known.empty() ? "" : ", ") + subject.subject;
+    append_name(known, subject.subject);
     if (!only.empty() && subject.subject != only) continue;
     if (shared && subject.shared.intercept.size() > 0)
       lines.push_back({subject, subject.shared.intercept, subject.shared.slope,

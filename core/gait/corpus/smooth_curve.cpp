@@ -64,11 +64,11 @@ double ShapedCurve::at(double x) const {
   const Knot &from = knots_[i], &to = knots_[i + 1];
   const double width = to.x - from.x, s = (x - from.x) / width, r = 1 - s;
   const auto slope_shape = [](double u) { return u * (1 + u * u * (-6 + u * (8 - 3 * u))); };
-  return from.value + (to.value - from.value) * smooth_step(s) +
+  return from.value + (to.value - from.value) * smoother_step(s) +
          width * (from.slope * slope_shape(s) - to.slope * slope_shape(r));
 }
 
-double smooth_step(double x) {
+double smoother_step(double x) {
   x = std::clamp(x, 0.0, 1.0);
   return x * x * x * (10 + x * (-15 + 6 * x));
 }

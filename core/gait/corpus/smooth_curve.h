@@ -49,6 +49,6 @@ class ShapedCurve {
 };
 
 // From 0 at x <= 0 to 1 at x >= 1, first and second derivatives zero at both ends.
-double smooth_step(double x);
+double smoother_step(double x);
 
 }  // namespace gait

@@ -148,13 +148,13 @@ double SyntheticWalk::wanted_height(double time, double drawn_phase, double& lim
     const double dx = pelvis.x() + hip.x() - state.ankle.x();
     const double dz = pelvis.z() + hip.z() - state.ankle.z();
     const auto height_with = [&](double knee) {
-      const double reach = hip_to_ankle(leg_, knee);
+      const double reach = leg_.reach(knee);
       return state.ankle.y() + std::sqrt(std::max(reach * reach - dx * dx - dz * dz, 1e-4)) -
              hip.y();
     };
     limit = std::min(limit, height_with(straightest_knee));
     const double cycles = foot_cycles(foot, drawn_phase), phase = cycles - std::floor(cycles);
-    const double load = smooth_step(phase / both) - smooth_step((phase - 0.5) / both);
+    const double load = smoother_step(phase / both) - smoother_step((phase - 0.5) / both);
     if (load <= 0) continue;
     const double mean_knee = knee_curve_.at(phase + 0.5).x();
     const double knee = knee_mean_ + s.knee_yield * (mean_knee - knee_mean_) + s.knee_bend +

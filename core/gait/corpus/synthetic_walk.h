@@ -70,7 +70,7 @@ class SyntheticWalk {
 
   Skeleton skeleton_;
   WalkStyle style_;
-  LegLengths leg_;
+  TwoBones leg_;
   Sole sole_;
   int first_step_, steps_;  // steps are counted from the first counted contact
   double duration_ = 0, start_ = 0;

@@ -1,5 +1,6 @@
 #include "gait/corpus/walk_style.h"
 #include "gait/error.h"
+#include "gait/names.h"
 
 namespace gait {
 namespace {
@@ -187,12 +188,10 @@ const std::vector<WalkStyle>& corpus_styles() {
 
 const WalkStyle& corpus_style(std::string_view name) {
   if (name == neutral().name) return neutral();
-  std::string known = neutral().name;
-  for (const WalkStyle& style : corpus_styles()) {
+  for (const WalkStyle& style : corpus_styles())
     if (style.name == name) return style;
-    known += ", " + style.name;
-  }
-  throw Error("no style of the corpus is called \"" + std::string(name) + "\"; there are " + known);
+  throw Error("no style of the corpus is called \"" + std::string(name) + "\"; there are " +
+              neutral().name + ", " + joined_names(corpus_styles(), &WalkStyle::name));
 }
 
 WalkStyle scaled(WalkStyle style, double factor) {

@@ -1,7 +1,8 @@
-// BVH files: what the file says, to the letter (BvhFile), and what it means (Clip).
+// BVH files: the content of a file as it is written (BvhFile), and the motion that it describes
+// (Clip).
 //
-// Keeping both apart lets a program change some joints and write the rest untouched: hierarchy,
-// channel orders and values that were not set are written as they were read.
+// With both, a program can change some joints and write the rest untouched: hierarchy, channel
+// orders and values that were not set are written as they were read.
 #pragma once
 
 #include <Eigen/Core>
@@ -31,7 +32,7 @@ struct BvhFile {
   double frame_time = 1.0 / 30;                // seconds
   // One row per frame, one column per channel; rotations in degrees as in the file.
   Eigen::Matrix<double, Eigen::Dynamic, Eigen::Dynamic, Eigen::RowMajor> values;
-  std::vector<std::string> warnings;  // what was odd but usable, each with file and line
+  std::vector<std::string> warnings;  // odd but usable content, each with file and line
 };
 
 // Reads a BVH file. Throws Error with file, line and what was expected: not a BVH, truncated, fewer
@@ -42,21 +43,21 @@ struct BvhFile {
 BvhFile read_bvh(const std::filesystem::path& path);
 BvhFile parse_bvh(std::string_view text, std::string name);
 
-// Writes it back: same hierarchy and channel orders, values such that reading them again gives the
-// same doubles. To a temporary file first, then renamed. Throws Error when it cannot be written.
+// Writes a file with the same hierarchy and channel orders, and values that read back as the same
+// doubles. The file appears whole or not at all. Throws Error when it cannot be written.
 void write_bvh(const BvhFile& file, const std::filesystem::path& path);
 std::string bvh_text(const BvhFile& file);
 
-// What the file means, in its own unit and axes. Position channels replace the joint's offset, each
-// for its axis; rotations apply in the order of the channels, however many there are. A frame time
-// within 1e-4 of a whole frame rate is taken as that rate (0.0333333 s: 30 frames per second).
+// The motion of a file, in the file's unit and axes. Position channels replace the joint's offset,
+// each for its axis; rotations apply in the order of the channels, however many there are. A frame
+// time within 1e-4 of a whole frame rate is taken as that rate (0.0333333 s: 30 frames per second).
 Clip clip_from_bvh(const BvhFile& file);
 
-// True when the joint's rotation channels can express any rotation: three, no axis twice in a row.
+// Whether the joint's rotation channels can express any rotation: three, no axis twice in a row.
 bool takes_rotation(const BvhFile& file, int joint);
 
-// Puts a local rotation (or translation, in the file's unit) into a frame's channels, in the
-// joint's own channel order. Euler angles (kept to a microdegree) are chosen nearest to those of
+// Set a local rotation (or translation, in the file's unit) in a frame's channels, in the joint's
+// own channel order. Euler angles (kept to a microdegree) are chosen nearest to those of
 // the frame before, and nearest to zero in frame 0, so that curves do not jump: set frames in
 // order. Throws Error naming the joint when it does not take a rotation; a position channel that
 // the joint lacks is ignored.

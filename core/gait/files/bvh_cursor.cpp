@@ -9,7 +9,7 @@ namespace gait {
 namespace {
 
 // Larger than any angle or place in a recording; squares of it still fit a double with ease.
-constexpr double kLargestNumber = 1e9;
+constexpr double largest_number = 1e9;
 
 bool is_blank(char c) { return c == ' ' || c == '\t' || c == '\f' || c == '\v'; }
 bool is_line_end(char c) { return c == '\n' || c == '\r'; }
@@ -129,7 +129,7 @@ double BvhCursor::number(std::string_view what) {
   const char* const stop = begin + length;
   if (length == 0 || (stop != end && !is_space(*stop) && !is_brace(*stop)))
     fail("expected a number (" + std::string(what) + "), found " + found(peek()));
-  if (!(std::abs(value) <= kLargestNumber))
+  if (!(std::abs(value) <= largest_number))
     fail("expected a finite number below 1e9 (" + std::string(what) + "), found " + found(peek()));
   position_ = static_cast<std::size_t>(stop - text_.data());
   return value;

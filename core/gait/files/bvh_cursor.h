@@ -1,5 +1,5 @@
-// A place in the text of a BVH file: reads words and numbers, knows the line it is on, and makes
-// the errors that name it. Private to reading BVH.
+// Cursor in the text of a BVH file: reads words and numbers, counts lines, and throws errors that
+// name file and line. Private to reading BVH.
 #pragma once
 
 #include <string>
@@ -29,16 +29,18 @@ class BvhCursor {
   std::string_view word();
   // Takes the next word if it is this one, upper or lower case alike.
   bool take(std::string_view expected);
-  // The same, and an Error that says what `expected` is for when it is not.
+  // Takes the next word; throws Error when it is not this one. `why`: the purpose of the word, for
+  // the message.
   void require(std::string_view expected, std::string_view why);
 
-  // `Frames:` and `Frame Time:`: the words with a colon that may stand apart or be missing.
+  // Takes `Frames:` or `Frame Time:`; a space before the colon is allowed, and so is a missing
+  // colon.
   void require_title(std::string_view title);
 
-  // What is left of the line up to a brace, without white space around it: names may hold spaces.
+  // The rest of the line up to a brace, trimmed: names may hold spaces.
   std::string_view rest_of_line();
 
-  // A finite number of sensible size. `what` says what it is, for the message.
+  // A finite number of sensible size. `what`: its meaning, for the message.
   double number(std::string_view what);
   // A whole number in [least, most].
   long long count(std::string_view what, long long least, long long most);

@@ -19,13 +19,13 @@ namespace {
 
 using Angles = std::array<double, 3>;  // radians
 
-constexpr double kPi = std::numbers::pi;
+constexpr double pi = std::numbers::pi;
 
 // Below this the sine or cosine of b/2 leaves one of a+c and a-c to chance (gimbal lock). What is
 // lost by ignoring it is at most 4e-7 rad: 2e-5 degrees, below what a file's digits hold.
-constexpr double kLocked = 1e-7;
+constexpr double locked = 1e-7;
 
-double to_half_turn(double angle) { return std::remainder(angle, 2 * kPi); }
+double to_half_turn(double angle) { return std::remainder(angle, 2 * pi); }
 double nearest_turn(double angle, double wanted) { return wanted + to_half_turn(angle - wanted); }
 
 struct Columns {
@@ -74,16 +74,16 @@ Angles nearest_proper_angles(const Eigen::Quaterniond& q, int i, int j, int k, d
   for (const bool other : {false, true}) {
     Angles angles;
     angles[1] = nearest_turn(other ? -b : b, before[1]);
-    if (sine < kLocked) {  // only a + c is known: share its change
+    if (sine < locked) {  // only a + c is known: share its change
       const double change = to_half_turn(sum - before[0] - before[2]) / 2;
       angles[0] = before[0] + change;
       angles[2] = before[2] + change;
-    } else if (cosine < kLocked) {  // only a - c is known
+    } else if (cosine < locked) {  // only a - c is known
       const double change = to_half_turn(difference - before[0] + before[2]) / 2;
       angles[0] = before[0] + change;
       angles[2] = before[2] - change;
     } else {
-      const double half_turn = other ? kPi : 0;
+      const double half_turn = other ? pi : 0;
       angles[0] = nearest_turn((sum + difference) / 2 + half_turn, before[0]);
       angles[2] = nearest_turn((sum - difference) / 2 + half_turn, before[2]);
     }
@@ -104,8 +104,8 @@ Angles nearest_angles(const Eigen::Quaterniond& rotation, const std::vector<int>
   Eigen::Quaterniond quarter(std::sqrt(0.5), 0, 0, 0);
   quarter.coeffs()[j] = std::sqrt(0.5);
   const Angles angles = nearest_proper_angles(rotation * quarter, i, j, k, e,
-                                              {before[0], before[1] + kPi / 2, -e * before[2]});
-  return {angles[0], angles[1] - kPi / 2, -e * angles[2]};
+                                              {before[0], before[1] + pi / 2, -e * before[2]});
+  return {angles[0], angles[1] - pi / 2, -e * angles[2]};
 }
 
 }  // namespace
@@ -123,11 +123,11 @@ void set_rotation(BvhFile& file, int frame, int joint, const Eigen::Quaterniond&
                 (columns.axes.size() == 3 ? " with an axis twice in a row" : ""));
   Angles before{};
   if (frame > 0)
-    for (int n = 0; n < 3; ++n) before[n] = file.values(frame - 1, columns.rotation[n]) * kPi / 180;
+    for (int n = 0; n < 3; ++n) before[n] = file.values(frame - 1, columns.rotation[n]) * pi / 180;
   const Angles angles = nearest_angles(rotation.normalized(), columns.axes, before);
   // A microdegree is finer than any reader asks for and keeps the text short; + 0 turns -0 to 0.
   for (int n = 0; n < 3; ++n)
-    file.values(frame, columns.rotation[n]) = std::round(angles[n] * 180 / kPi * 1e6) / 1e6 + 0.0;
+    file.values(frame, columns.rotation[n]) = std::round(angles[n] * 180 / pi * 1e6) / 1e6 + 0.0;
 }
 
 void set_translation(BvhFile& file, int frame, int joint, const Eigen::Vector3d& translation) {

@@ -10,13 +10,13 @@ namespace gait {
 namespace {
 
 // Far above any rig, far below what would hurt: a file beyond these is damaged.
-constexpr std::size_t kDeepestNesting = 200;
-constexpr int kMostJoints = 10000;
-constexpr long long kMostChannelsPerJoint = 32;
-constexpr long long kMostFrames = 1'000'000'000;
-constexpr std::size_t kLargestFile = std::size_t{1} << 30;
+constexpr std::size_t deepest_nesting = 200;
+constexpr int most_joints = 10000;
+constexpr long long most_channels_per_joint = 32;
+constexpr long long most_frames = 1'000'000'000;
+constexpr std::size_t largest_file = std::size_t{1} << 30;
 
-constexpr std::array<std::pair<std::string_view, Channel>, 6> kChannelNames{{
+constexpr std::array<std::pair<std::string_view, Channel>, 6> channel_names{{
     {"Xposition", Channel::x_position},
     {"Yposition", Channel::y_position},
     {"Zposition", Channel::z_position},
@@ -33,7 +33,7 @@ Eigen::Vector3d read_offset(BvhCursor& cursor) {
 
 Channel read_channel(BvhCursor& cursor, std::string_view joint) {
   const std::string_view word = cursor.peek();
-  for (const auto& [name, channel] : kChannelNames)
+  for (const auto& [name, channel] : channel_names)
     if (same_word(word, name)) {
       cursor.word();
       return channel;
@@ -44,7 +44,7 @@ Channel read_channel(BvhCursor& cursor, std::string_view joint) {
 }
 
 std::vector<Channel> read_channels(BvhCursor& cursor, std::string_view joint) {
-  const long long count = cursor.count("the number of channels", 0, kMostChannelsPerJoint);
+  const long long count = cursor.count("the number of channels", 0, most_channels_per_joint);
   std::vector<Channel> channels;
   std::array<bool, 3> placed{};
   for (long long i = 0; i < count; ++i) {
@@ -83,11 +83,11 @@ class HierarchyReader {
   };
 
   void begin_joint(int parent) {
-    if (open_.size() >= kDeepestNesting)
-      cursor_.fail("expected joints nested at most " + std::to_string(kDeepestNesting) +
+    if (open_.size() >= deepest_nesting)
+      cursor_.fail("expected joints nested at most " + std::to_string(deepest_nesting) +
                    " deep, found one deeper");
-    if (file_.skeleton.size() >= kMostJoints)
-      cursor_.fail("expected at most " + std::to_string(kMostJoints) + " joints, found more");
+    if (file_.skeleton.size() >= most_joints)
+      cursor_.fail("expected at most " + std::to_string(most_joints) + " joints, found more");
     const std::string_view name = cursor_.rest_of_line();
     if (name.empty()) cursor_.fail("expected the joint's name, found none");
     cursor_.require("{", "to open joint " + in_quotes(name));
@@ -184,7 +184,7 @@ BvhFile parse_bvh(std::string_view text, std::string name) {
   HierarchyReader(cursor, file).read();
   cursor.require("MOTION", "after the hierarchy");
   cursor.require_title("Frames");
-  const long long frames = cursor.count("the number of frames", 0, kMostFrames);
+  const long long frames = cursor.count("the number of frames", 0, most_frames);
   if (frames == 0) file.warnings.push_back(cursor.here("'Frames:' says there are none"));
   cursor.require_title("Frame Time");
   file.frame_time = cursor.number("the frame time in seconds");
@@ -211,7 +211,7 @@ BvhFile read_bvh(const std::filesystem::path& path) {
   std::array<char, 1 << 16> block;
   while (stream.read(block.data(), block.size()) || stream.gcount() > 0) {
     text.append(block.data(), static_cast<std::size_t>(stream.gcount()));
-    if (text.size() > kLargestFile)
+    if (text.size() > largest_file)
       throw Error(path.string() + ": expected a BVH file below 1 GiB, found a larger one");
   }
   if (stream.bad()) throw Error(path.string() + ": cannot be read to its end");

@@ -5,11 +5,12 @@
 
 #include "gait/error.h"
 #include "gait/files/bvh.h"
+#include "gait/files/whole_file.h"
 
 namespace gait {
 namespace {
 
-constexpr std::array<std::string_view, 6> kChannelNames{"Xposition", "Yposition", "Zposition",
+constexpr std::array<std::string_view, 6> channel_names{"Xposition", "Yposition", "Zposition",
                                                         "Xrotation", "Yrotation", "Zrotation"};
 
 // The shortest text that reads back as the same double; an exponent only where it must be, as some
@@ -65,7 +66,7 @@ class HierarchyWriter {
     line(depth + 1) += "CHANNELS " + std::to_string(file_.channels[index].size());
     for (const Channel channel : file_.channels[index]) {
       text_ += ' ';
-      text_ += kChannelNames[static_cast<std::size_t>(channel)];
+      text_ += channel_names[static_cast<std::size_t>(channel)];
     }
     text_ += '\n';
     for (const Eigen::Vector3d& tip : joint.tips) {
@@ -112,26 +113,7 @@ std::string bvh_text(const BvhFile& file) {
 }
 
 void write_bvh(const BvhFile& file, const std::filesystem::path& path) {
-  const std::string text = bvh_text(file);
-  std::filesystem::path unfinished = path;
-  unfinished += ".part";
-  {
-    std::ofstream stream(unfinished, std::ios::binary);
-    stream.write(text.data(), static_cast<std::streamsize>(text.size()));
-    stream.close();
-    if (!stream) {
-      std::error_code ignored;
-      std::filesystem::remove(unfinished, ignored);
-      throw Error(path.string() + ": cannot be written");
-    }
-  }
-  std::error_code error;
-  std::filesystem::rename(unfinished, path, error);
-  if (error) {
-    std::error_code ignored;
-    std::filesystem::remove(unfinished, ignored);
-    throw Error(path.string() + ": cannot be written: " + error.message());
-  }
+  write_whole_file(path, bvh_text(file));
 }
 
 }  // namespace gait

@@ -8,14 +8,15 @@
 #include <optional>
 
 #include "gait/error.h"
+#include "gait/files/whole_file.h"
 #include "gait/numbers.h"
 
 namespace gait {
 namespace {
 
-constexpr double kTicksPerSecond = 1e7;  // HTK's 100 ns
-constexpr double kLongestTime = 1e8;     // three years, in seconds: more is a damaged file
-constexpr double kMostFrames = 1e9;
+constexpr double ticks_per_second = 1e7;  // HTK's 100 ns
+constexpr double longest_time = 1e8;      // three years, in seconds: more is a damaged file
+constexpr double most_frames = 1e9;
 
 bool is_space(char c) { return c == ' ' || c == '\t' || c == '\r'; }
 
@@ -67,13 +68,13 @@ class LineReader {
   double time(std::string_view text, LabelForm form) const {
     double seconds = 0;
     if (form == LabelForm::htk) {
-      seconds = static_cast<double>(*whole_number_in<std::int64_t>(text)) / kTicksPerSecond;
+      seconds = static_cast<double>(*whole_number_in<std::int64_t>(text)) / ticks_per_second;
     } else {
       const LeadingNumber number = leading_number(text);
       if (text.empty() || number.length != text.size()) fail("a time in seconds", text);
       seconds = number.value;
     }
-    if (!(seconds >= 0 && seconds <= kLongestTime)) fail("a finite time from 0 on", text);
+    if (!(seconds >= 0 && seconds <= longest_time)) fail("a finite time from 0 on", text);
     return seconds;
   }
 
@@ -138,12 +139,12 @@ std::string labels_text(const std::vector<LabelSegment>& segments, LabelForm for
         segment.label.find_first_of(htk ? " \t\r\n" : "\t\r\n") != std::string::npos)
       throw Error("expected a label that " + std::string(htk ? "HTK's" : "Audacity's") +
                   " form can hold, found '" + segment.label + "'");
-    if (!(segment.start >= 0 && segment.end >= segment.start && segment.end <= kLongestTime))
+    if (!(segment.start >= 0 && segment.end >= segment.start && segment.end <= longest_time))
       throw Error("expected a label's times from 0 on, the end not before the start, found " +
                   std::to_string(segment.start) + " to " + std::to_string(segment.end) + " s");
     if (htk) {
-      text += std::to_string(std::llround(segment.start * kTicksPerSecond)) + ' ' +
-              std::to_string(std::llround(segment.end * kTicksPerSecond)) + ' ';
+      text += std::to_string(std::llround(segment.start * ticks_per_second)) + ' ' +
+              std::to_string(std::llround(segment.end * ticks_per_second)) + ' ';
     } else {
       append_seconds(text, segment.start);
       text += '\t';
@@ -157,18 +158,7 @@ std::string labels_text(const std::vector<LabelSegment>& segments, LabelForm for
 
 void write_labels(const std::vector<LabelSegment>& segments, LabelForm form,
                   const std::filesystem::path& path) {
-  const std::string text = labels_text(segments, form);
-  std::filesystem::path unfinished = path;
-  unfinished += ".part";
-  std::error_code error, ignored;
-  std::ofstream stream(unfinished, std::ios::binary);
-  stream.write(text.data(), static_cast<std::streamsize>(text.size()));
-  stream.close();
-  if (stream) std::filesystem::rename(unfinished, path, error);
-  if (!stream || error) {
-    std::filesystem::remove(unfinished, ignored);
-    throw Error(path.string() + ": cannot be written" + (error ? ": " + error.message() : ""));
-  }
+  write_whole_file(path, labels_text(segments, form));
 }
 
 std::vector<LabelSegment> labels_from_contacts(const std::vector<Contact>& contacts,
@@ -189,7 +179,7 @@ std::vector<Contact> contacts_from_labels(std::vector<LabelSegment> segments, do
     if (!foot) continue;
     const std::string where =
         " in the step '" + segment.label + "' at " + std::to_string(segment.start) + " s";
-    if (!(segment.end * frame_rate < kMostFrames))
+    if (!(segment.end * frame_rate < most_frames))
       throw Error("expected fewer than 1e9 frames" + where + ", found more");
     const int begin = static_cast<int>(std::lround(segment.start * frame_rate));
     const int end = static_cast<int>(std::lround(segment.end * frame_rate));

@@ -1,4 +1,4 @@
-// Label files: which label holds from when to when, in HTK's and Audacity's form.
+// Label files: labels with their times of start and end, in HTK's and Audacity's form.
 //
 // HTK:      `0 5600000 right`, times as whole numbers of 100 ns, separated by spaces.
 // Audacity: `0.000000<tab>0.560000<tab>right`, times in seconds, separated by tabs.
@@ -34,22 +34,22 @@ struct LabelFile {
 LabelFile read_labels(const std::filesystem::path& path);
 LabelFile parse_labels(std::string_view text, const std::string& name);
 
-// Writes them, to a temporary file first, then renamed. HTK keeps 100 ns, Audacity a microsecond.
-// Throws Error when the file cannot be written, or a label cannot be held: empty, with a line end,
-// or with white space in HTK's form.
+// Writes a label file; it appears whole or not at all. HTK's form keeps 100 ns, Audacity's a
+// microsecond. Throws Error when the file cannot be written, or when the form cannot hold a label:
+// an empty one, one with a line end, or one with white space in HTK's form.
 void write_labels(const std::vector<LabelSegment>& segments, LabelForm form,
                   const std::filesystem::path& path);
 std::string labels_text(const std::vector<LabelSegment>& segments, LabelForm form);
 
-// Steps as labels: `right` or `left` from one foot's contact to the other's, in seconds from frame
+// Labels for steps: `right` or `left` from one foot's contact to the other's, in seconds from frame
 // 0.
 std::vector<LabelSegment> labels_from_contacts(const std::vector<Contact>& contacts,
                                                double frame_rate);
 
-// And back: a contact at the start of each step, and one of the other foot where a step ends that
-// no other follows. Labels: right, left, r, l in any case; others are no steps. Frames are rounded
-// to the nearest. Throws Error naming the time where steps overlap or a foot steps twice in
-// succession.
+// Contacts for labels: one at the start of each step, and one of the other foot at the end of a
+// step without a successor. Labels of steps are right, left, r and l in any case; others are
+// ignored. Times are rounded to the nearest frame. Throws Error, with the time, when steps overlap
+// or a foot steps twice in succession.
 std::vector<Contact> contacts_from_labels(std::vector<LabelSegment> segments, double frame_rate);
 
 }  // namespace gait

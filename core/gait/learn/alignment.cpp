@@ -16,7 +16,7 @@ double log_sum(double a, double b) {
   return b == impossible ? a : a + std::log1p(std::exp(b - a));
 }
 
-// The row of states that a sequence passes through, and which frames each may take.
+// The chain of states of a sequence, and the range of frames that each may take.
 struct Row {
   std::vector<int> state;               // over all labels
   std::vector<int> begin, end;          // frames [begin, end) allowed
@@ -139,7 +139,7 @@ Alignment soft_alignment(const Row& row, const Eigen::MatrixXd& log_emission,
   return alignment;
 }
 
-// Of x along a path that is given.
+// Log-likelihood of x along a given path.
 double log_likelihood_of(const Alignment& path, const ObservedSequence& sequence,
                          const EmissionModel& model) {
   double sum = 0;

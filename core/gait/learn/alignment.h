@@ -1,8 +1,8 @@
-// Alignment: how much of each frame belongs to each state of a sequence's known label sequence.
+// Alignment: the posterior of each state in each frame, given a sequence's known labels.
 //
-// The states of a sequence's segments stand in one row, left to right without skips. A frame may
-// lie in a state of its own segment or, near a boundary, of the neighbour: boundaries are free by
-// `slack` frames.
+// The states of a sequence's segments form one chain, left to right without skips. A frame may
+// be in a state of its own segment or, near a boundary, of the neighbouring segment: boundaries may
+// move by `slack` frames.
 #pragma once
 
 #include <vector>
@@ -24,7 +24,7 @@ struct StateTable {
 struct Occupancy {
   int frame = 0;     // column of the sequence
   int state = 0;     // over all labels
-  double share = 0;  // posterior of being there, 0..1
+  double share = 0;  // posterior of the state, 0..1
 };
 
 struct Alignment {
@@ -38,11 +38,11 @@ struct EmissionModel {
   std::vector<double> stay;        // self-transition probability
 };
 
-// Each segment cut into equal parts, one per state.
+// Cuts each segment into equal parts, one per state.
 Alignment align_equally(const ObservedSequence& sequence, const StateTable& table);
 
-// Posteriors by forward-backward, or the one best path (`hard`). A segment that is too short for
-// its states is stretched into its neighbours within the slack; where even that does not do, the
+// Posteriors by forward-backward, or the best path alone (`hard`). A segment that is shorter than
+// its number of states extends into its neighbours within the slack; when that is not enough, the
 // sequence keeps equal parts.
 Alignment align(const ObservedSequence& sequence, const StateTable& table,
                 const EmissionModel& emissions, int slack, bool hard);

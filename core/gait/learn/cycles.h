@@ -15,16 +15,17 @@ struct CapturedCycle {
   double speed = 0;        // m/s along the ground, or of the feet on a treadmill
   double leg_length = 0;   // thigh + shank of the walk's body, metres
   int walk = 0;            // index into the walks
-  int place = 0;           // which cycle of its walk, 0 the first; neighbours differ by one
+  int place = 0;           // number of the cycle in its walk, from 0; neighbours differ by one
   bool straight = true;    // heading changes by less than 10 degrees
 };
 
 // The body's joints that move with the pelvis: all but those above the hips.
 std::vector<int> joints_below_hips(const Body& body);
 
-// All cycles of the walks, each step brought by SLERP to half of `frames` (even), so that phase 0
-// is the right contact and 0.5 the left. Poses are relative to the body's references; the hips'
-// heading is out. Walks that do not fit the body throw Error, those without a cycle give none.
+// Cuts all cycles of the walks and resamples each step by SLERP to half of `frames` (even), so that
+// phase 0 is the right contact and 0.5 the left. Poses are relative to the body's references, and
+// the hips' rotation is without heading. Walks without a cycle give none. Throws Error for walks
+// that do not fit the body.
 std::vector<CapturedCycle> cut_cycles(const std::vector<Walk>& walks, const Body& body, int frames,
                                       const RoleTable& roles = {});
 

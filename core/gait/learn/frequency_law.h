@@ -17,15 +17,16 @@ struct CadencePoint {
   double frequency = 0;      // cycles per second
 };
 
-// What is known of a law before its points: they bend it away from `law` as far as they outweigh
-// `weight`, in squared deviations of log V. Points that hardly differ in speed say little of power.
+// Prior of a frequency law: the fitted power moves from `law` to that of the points as their sum of
+// squared deviations of log V outweighs `weight`. Points of nearly equal speed hardly determine the
+// power.
 struct LawBefore {
   FrequencyLaw law;
   double weight = 0.3;
 };
 
 // f = scale * V^power by least squares on log f over log V. Throws Error when there is no point, a
-// value is not positive, or nothing tells the power: all V equal and nothing known before.
+// value is not positive, or the power is undetermined: all V are equal and there is no prior.
 FrequencyLaw fit_frequency_law(std::span<const CadencePoint> points,
                                const std::optional<LawBefore>& before = {});
 

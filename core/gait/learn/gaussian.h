@@ -1,4 +1,5 @@
-// Gaussian over observations, ready to give log-likelihoods of many frames at once.
+// Gaussian over observations, with its covariance factorised for the log-likelihoods of many
+// frames.
 #pragma once
 
 #include <Eigen/Dense>
@@ -8,7 +9,7 @@ namespace gait {
 
 class Gaussian {
  public:
-  // `covariance` must be positive definite; `valid` says whether it was.
+  // `covariance` must be positive definite; `valid` returns whether it is.
   Gaussian(const Eigen::VectorXd& mean, const Eigen::MatrixXd& covariance)
       : mean_(mean), factor_(covariance) {
     half_log_determinant_ = factor_.matrixLLT().diagonal().array().log().sum();

@@ -11,7 +11,7 @@ namespace gait {
 
 namespace {
 
-// Diagonal of the pooled within-state covariance; what every state's covariance is drawn towards.
+// Diagonal of the pooled within-state covariance, towards which each state's covariance is shrunk.
 Eigen::VectorXd pooled_target(const std::vector<StateStatistics>& statistics) {
   Eigen::VectorXd sum = Eigen::VectorXd::Zero(statistics.front().sum.size());
   double count = 0;

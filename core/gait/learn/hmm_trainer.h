@@ -1,8 +1,8 @@
 // Training of the states (T14 §3): equal segmentation, segmental k-means, then Baum-Welch over
 // known label sequences; x alone aligns, z = [x; y] is learnt under the same posteriors.
 //
-// How far to go is a choice: states that share a step evenly in time map better than states that
-// Baum-Welch has fitted to the upper body alone, so the rounds are few by default.
+// The number of iterations is a choice: states that divide a step evenly in time map better than
+// states that Baum-Welch has fitted to the upper body alone, so the default is few.
 #pragma once
 
 #include <functional>
@@ -16,12 +16,12 @@ namespace gait {
 
 struct HmmOptions {
   double regularisation = 30;  // kappa of the regularised M-step
-  int slack = 2;               // frames by which boundaries are free
+  int slack = 2;               // frames by which boundaries may move
   int hard_iterations = 0;     // of segmental k-means
   int soft_iterations = 0;     // of Baum-Welch, at most
   double enough = 1e-4;        // stop when the penalised likelihood per frame gains less
   int threads = 0;             // 0: as many as the machine has; the result is the same
-  // Called from the calling thread with the share done, 0..1, and what is being done.
+  // Called on the calling thread with the share done, 0..1, and the name of the present task.
   std::function<void(double, const std::string&)> progress;
   Cancel cancel;  // training then throws Error("cancelled")
 };
@@ -32,7 +32,7 @@ struct TrainedStates {
   Eigen::VectorXd target;                        // T's diagonal, over z
   std::vector<double> stay;                      // per state
   std::vector<double> log_likelihood;            // of x, per iteration of Baum-Welch
-  std::vector<double> penalised_log_likelihood;  // the one that never falls
+  std::vector<double> penalised_log_likelihood;  // per iteration; it never falls
 };
 
 // Throws Error when a state gets no frames at all.

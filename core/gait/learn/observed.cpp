@@ -75,11 +75,11 @@ Scaling scaling_of(const std::vector<Sequence>& observed, bool inputs, int stati
   return {moments.mean, deviation};
 }
 
-// Segments cut to the frames whose observation is whole: [first, last).
+// Segments within the frames [first, last), whose observations are complete.
 std::vector<Segment> cut(const std::vector<Segment>& segments, int first, int last) {
   std::vector<Segment> kept;
   for (Segment segment : segments) {
-    // A segment that lost its beginning would teach its first states wrongly.
+    // A segment without its beginning would train its first states on later frames.
     if (segment.begin < first || segment.end > last) continue;
     kept.push_back(segment);
   }

@@ -1,4 +1,4 @@
-// From sequences of values to scaled observations, and the scaling itself.
+// Observed sequences: scaled observations of sequences of values, and their scaling.
 #pragma once
 
 #include <vector>
@@ -21,13 +21,13 @@ struct ObservationSet {
 // or the stream's unit).
 inline constexpr double least_deviation = 1e-3;
 
-// Of values by frames the modelled ones, then their centred first, then second differences; at the
-// ends the neighbour that is missing is the frame itself.
+// Stacks the modelled values (values by frames), their centred first differences and their second
+// differences; at the ends the frame itself stands in for the missing neighbour.
 Eigen::MatrixXd with_differences(const Eigen::MatrixXd& values, const std::vector<int>& modelled);
 
-// Lays observations out and scales them by mean and deviation over the frames between each
-// sequence's first and last segment. Differences reach `lags` frames back; frames that lack the
-// history, or a neighbour for the output's differences, are left out, and segments with them.
+// Makes observations and scales them by their mean and deviation over the frames between each
+// sequence's first and last segment. Differences reach `lags` frames back. Frames without that
+// history, or without a neighbour for the output's differences, are left out, with their segments.
 // Throws Error when no input moves or when nothing is left.
 ObservationSet observe(const std::vector<Sequence>& sequences, const std::vector<int>& lags);
 

@@ -1,5 +1,5 @@
-// The same work on several threads. Each index is done once, by any thread; what it computes must
-// depend on the index alone, so that results are the same for any number of threads.
+// Parallel loop: runs the same work on several threads. Each index runs once, on any thread; its
+// result must depend on the index alone, so that results are the same for any number of threads.
 #pragma once
 
 #include <algorithm>
@@ -12,13 +12,13 @@
 
 namespace gait {
 
-// 0: as many as the machine has.
+// Number of threads to use; 0 asked: as many as the machine has.
 inline int threads_to_use(int asked) {
   const int has = static_cast<int>(std::thread::hardware_concurrency());
   return asked > 0 ? asked : std::max(1, has);
 }
 
-// Calls work(i) for i in [0, count). The first exception is thrown on when all threads are done.
+// Calls work(i) for i in [0, count). Rethrows the first exception when all threads are done.
 template <typename Work>
 void in_parallel(int count, int threads, Work work) {
   threads = std::min(threads_to_use(threads), count);

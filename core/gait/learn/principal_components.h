@@ -11,8 +11,8 @@ struct PrincipalComponents {
   Eigen::VectorXd variances;   // of all min(rows - 1, columns) components, descending
 };
 
-// How many components to keep: those that carry `share` of the variance, but no more than `most`
-// if that is not 0; or `count` if that is not 0.
+// Number of components to keep: `count` when it is not 0, else as many as carry `share` of the
+// variance, at most `most` when that is not 0.
 struct ComponentChoice {
   double share = 0.9;
   int count = 0;

@@ -1,5 +1,4 @@
-// Sequence: one take as learning sees it, whatever its streams are: values per frame, and who did
-// what when.
+// Sequence: one take of any streams for learning: values per frame, labelled segments and a style.
 #pragma once
 
 #include <Eigen/Core>
@@ -20,7 +19,7 @@ struct Sequence {
   int style = -1;                   // index into the styles, -1: none
 };
 
-// The same take as scaled observations; columns are frames [first_frame, first_frame + columns).
+// A take as scaled observations; columns are frames [first_frame, first_frame + columns).
 struct ObservedSequence {
   std::string name;
   Eigen::MatrixXd x, y;           // observation by frames

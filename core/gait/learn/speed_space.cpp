@@ -17,7 +17,7 @@ double speed_per_leg(const CapturedCycle& cycle, const SubjectCycles& subject) {
   return cycle.speed / subject.leg_length;
 }
 
-// One subject as the lines see him.
+// One subject's data for the regression.
 struct Subject {
   const SubjectCycles& captured;
   Rows cycles;
@@ -42,8 +42,8 @@ Subject seen(const SubjectCycles& captured, const Body& body, const std::vector<
   return subject;
 }
 
-// What a cycle changes by with V within subjects, over all of them. Zero, with no weight, when
-// nobody walked at two speeds.
+// Pooled slope of cycles over V within subjects. When no subject walked at two speeds: the slope
+// from standing to walking, with weight 0.
 struct SharedSlope {
   Eigen::VectorXd slope;
   double weight = 0;
@@ -60,7 +60,7 @@ SharedSlope shared_slope(const std::vector<Subject>& subjects) {
     shared.slope /= shared.weight;
     return shared;
   }
-  // All at one speed: the way from standing to walking is the only one known.
+  // All cycles have one speed: the only known slope is the one from standing to walking.
   shared.weight = 0;
   for (const Subject& subject : subjects)
     shared.slope += (subject.cycles.colwise().mean().transpose() - subject.standing) /
@@ -98,7 +98,7 @@ SharedLines fit_lines(const CycleSpace& space, const Subject& subject, const Sha
                       double held) {
   const double mean_speed = subject.speeds.mean();
   const Eigen::VectorXd off = subject.speeds.array() - mean_speed;
-  // With nobody else's slope to hold to, its own decides unless there is none.
+  // Without a shared slope the subject's own decides, if it has one.
   const double weight = shared.weight > 0 ? held : 1e-9;
   const Eigen::VectorXd slope =
       (subject.cycles.transpose() * off + weight * shared.slope) / (off.squaredNorm() + weight);
@@ -155,7 +155,7 @@ std::vector<CadencePoint> cadence_points(const SubjectCycles& subject) {
   return points;
 }
 
-// Of all cycles; where all are at one speed, with the power of Inman's law.
+// Frequency law of all cycles; when all have one speed, with the power of Inman's law.
 FrequencyLaw law_of_all(const std::vector<CadencePoint>& points) {
   const auto [low, high] = std::minmax_element(
       points.begin(), points.end(),

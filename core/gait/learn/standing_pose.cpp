@@ -26,16 +26,10 @@ std::vector<int> children_of(const Skeleton& skeleton, int joint) {
   return children;
 }
 
-Eigen::Vector3d place_at_rest(const Skeleton& skeleton, int joint) {
-  Eigen::Vector3d place = Eigen::Vector3d::Zero();
-  for (; joint >= 0; joint = skeleton.joints[joint].parent) place += skeleton.joints[joint].offset;
-  return place;
-}
-
 // The axis (0, 1, 2) from right to left in the skeleton at rest.
 int side_axis(const Skeleton& skeleton, const JointRoles& roles) {
   int axis = 0;
-  (place_at_rest(skeleton, roles.left.foot) - place_at_rest(skeleton, roles.right.foot))
+  (skeleton.place_at_rest(roles.left.foot) - skeleton.place_at_rest(roles.right.foot))
       .cwiseAbs()
       .maxCoeff(&axis);
   return axis;
@@ -70,8 +64,8 @@ Eigen::Quaterniond in_world(const Skeleton& skeleton, const Pose& pose, int join
   return rotation;
 }
 
-// Turns a thigh until the ankle is straight below it: who bears his weight on one leg has that foot
-// below the middle of the body, and two such feet would be in each other's way.
+// Turns a thigh until the ankle is straight below it. In single stance the foot is below the middle
+// of the body; both feet there would overlap.
 void set_upright(const Skeleton& skeleton, const Leg& leg, int hips, Pose& pose) {
   Eigen::Vector3d to_ankle = Eigen::Vector3d::Zero();
   for (int joint = leg.foot; joint != leg.thigh; joint = skeleton.joints[joint].parent)
@@ -116,8 +110,8 @@ class MeanCycle {
   int frames_;
 };
 
-}  // namespace
-
+// For each joint the one on the other side of the body, itself for those in the middle. Empty when
+// the skeleton at rest is not the mirror image of itself.
 std::vector<int> mirrored_joints(const Skeleton& skeleton, const JointRoles& roles) {
   if (!roles.has_legs()) return {};
   std::vector<int> partner(skeleton.joints.size());
@@ -146,6 +140,8 @@ std::vector<int> mirrored_joints(const Skeleton& skeleton, const JointRoles& rol
   }
   return partner;
 }
+
+}  // namespace
 
 Eigen::VectorXd standing_pose(const Body& body, const std::vector<int>& joints,
                               const Eigen::VectorXd& cycle) {

@@ -1,5 +1,5 @@
-// Sufficient statistics of states over z = [x; y], as counted by an alignment; they add up, so that
-// any part of the training data can be left out again (cross-validation).
+// State statistics: sufficient statistics of states over z = [x; y] under an alignment. They are
+// additive, so any part of the training data can be subtracted (cross-validation).
 #pragma once
 
 #include <vector>
@@ -28,8 +28,8 @@ struct StateStatistics {
   Eigen::MatrixXd within_style_covariance(int dimensions) const;
 };
 
-// Statistics of every state over the chosen sequences. The same to the bit for any number of
-// threads.
+// Statistics of every state over the sequences with the indices `chosen`; identical for any number
+// of threads.
 std::vector<StateStatistics> gather(const std::vector<ObservedSequence>& sequences,
                                     const std::vector<Alignment>& alignments,
                                     const std::vector<int>& chosen, int states, int styles,

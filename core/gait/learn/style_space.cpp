@@ -39,6 +39,27 @@ Eigen::MatrixXd correlation_of(const Eigen::MatrixXd& scores, const Eigen::Vecto
   return correlation;
 }
 
+// How `values`, one per cycle in the order of `cycles`, vary (all of one style).
+Variation variation_over(const Cycles& cycles, const Eigen::Ref<const Eigen::VectorXd>& values) {
+  const auto count = static_cast<double>(values.size());
+  Variation variation;
+  variation.mean = values.mean();
+  if (values.size() > 1)
+    variation.deviation = std::sqrt((values.array() - variation.mean).square().sum() / (count - 1));
+  variation.lowest = values.minCoeff();
+  variation.highest = values.maxCoeff();
+  bool neighbours = false;
+  for (std::size_t i = 1; i < cycles.size(); ++i)
+    if (cycles[i]->walk == cycles[i - 1]->walk && cycles[i]->place == cycles[i - 1]->place + 1) {
+      const auto at = static_cast<Eigen::Index>(i);
+      variation.largest_change =
+          std::max(variation.largest_change, std::abs(values[at] - values[at - 1]));
+      neighbours = true;
+    }
+  if (!neighbours) variation.largest_change = variation.highest - variation.lowest;
+  return variation;
+}
+
 StyleCycles style_cycles(const Cycles& cycles, const CycleSpace& space) {
   StyleCycles style;
   style.cycles = static_cast<int>(cycles.size());
@@ -59,27 +80,6 @@ StyleCycles style_cycles(const Cycles& cycles, const CycleSpace& space) {
 }
 
 }  // namespace
-
-Variation variation_over(const std::vector<const CapturedCycle*>& cycles,
-                         const Eigen::Ref<const Eigen::VectorXd>& values) {
-  const auto count = static_cast<double>(values.size());
-  Variation variation;
-  variation.mean = values.mean();
-  if (values.size() > 1)
-    variation.deviation = std::sqrt((values.array() - variation.mean).square().sum() / (count - 1));
-  variation.lowest = values.minCoeff();
-  variation.highest = values.maxCoeff();
-  bool neighbours = false;
-  for (std::size_t i = 1; i < cycles.size(); ++i)
-    if (cycles[i]->walk == cycles[i - 1]->walk && cycles[i]->place == cycles[i - 1]->place + 1) {
-      const auto at = static_cast<Eigen::Index>(i);
-      variation.largest_change =
-          std::max(variation.largest_change, std::abs(values[at] - values[at - 1]));
-      neighbours = true;
-    }
-  if (!neighbours) variation.largest_change = variation.highest - variation.lowest;
-  return variation;
-}
 
 StyleSpace learn_style_space(const std::vector<CapturedCycle>& cycles,
                              const std::vector<int>& style_of_walk, int styles,

@@ -1,4 +1,5 @@
-// The space of styles: components of walk cycles, and how each style's cycles vary (T10 §4-6).
+// Style space: principal components of walk cycles, and the variation of each style's cycles in it
+// (T10 §4-6).
 #pragma once
 
 #include <vector>
@@ -21,9 +22,5 @@ StyleSpace learn_style_space(const std::vector<CapturedCycle>& cycles,
                              const std::vector<int>& style_of_walk, int styles,
                              const std::vector<int>& joints, int frames,
                              const ComponentChoice& choice = {});
-
-// How `values`, one per cycle in the order of `cycles`, vary (all of one style).
-Variation variation_over(const std::vector<const CapturedCycle*>& cycles,
-                         const Eigen::Ref<const Eigen::VectorXd>& values);
 
 }  // namespace gait

@@ -7,6 +7,7 @@
 #include "gait/learn/speed_space.h"
 #include "gait/motion/contacts.h"
 #include "gait/motion/rotation.h"
+#include "gait/names.h"
 
 namespace gait {
 
@@ -16,7 +17,7 @@ namespace {
 // broad or high); another rig's rest pose differs by far more.
 constexpr double other_rig = 0.61;  // 35 degrees
 
-constexpr double usual_cycle = 1.1;  // seconds: for the heading of one who stands
+constexpr double usual_cycle = 1.1;  // seconds: for the heading of a subject that stands
 
 bool is_standing(const Walk& walk) {
   std::string name = std::filesystem::path(walk.clip.name).filename().string() + " " + walk.style;
@@ -27,8 +28,8 @@ bool is_standing(const Walk& walk) {
 
 std::string subject_of(const Walk& walk) { return walk.subject.empty() ? "anyone" : walk.subject; }
 
-// The body with this subject's bones. Where the hips lie in the file is no bone: some programs
-// write there where a walk began.
+// The body with this subject's bones. The offset of the hips is not a bone: some programs write the
+// start of the walk there.
 Body body_of_subject(const Body& body, const Clip& clip) {
   Body own = body;
   const int hips = body_roles(body).hips;
@@ -39,13 +40,13 @@ Body body_of_subject(const Body& body, const Clip& clip) {
     const bool bone = i != hips && std::find(below.begin(), below.end(), i) != below.end();
     const int at = clip.skeleton.find(joint.name);
     if (at < 0) {
-      missing += (missing.empty() ? "" : ", ") + joint.name;
+      append_name(missing, joint.name);
       continue;
     }
     const Joint& theirs = clip.skeleton.joints[at];
     const double lengths = joint.offset.norm() * theirs.offset.norm();
     if (bone && lengths > 1e-4 && joint.offset.dot(theirs.offset) < std::cos(other_rig) * lengths)
-      turned += (turned.empty() ? "" : ", ") + joint.name;
+      append_name(turned, joint.name);
     joint.offset = theirs.offset;
     joint.tips = theirs.tips;
   }
@@ -74,8 +75,8 @@ Eigen::VectorXd mean_pose(const Walk& walk, const Body& own) {
   return sum / std::max(1, poses.frames());
 }
 
-// A cycle ends where it began: what it went astray is taken back evenly (G04 §5 leaves it). Both
-// ends are carried on half a frame to where they should meet.
+// Closes a cycle: its drift from begin to end is subtracted evenly (G04 §5 keeps it). Both ends are
+// extrapolated by half a frame to the point where they should meet.
 void close(CapturedCycle& cycle, int frames) {
   const Eigen::Index size = cycle.values.size() / frames;
   const auto frame = [&](int k) { return cycle.values.segment(k * size, size); };

@@ -45,10 +45,10 @@ void set_durations(Model& model, const ObservationSet& observed) {
   }
 }
 
-// Variance that any sensor gives each entry of an observation, scaled as they are. A joint that
-// rests at another angle in each style, and trembles in none, would otherwise be all that steps and
-// styles are told by, and the slightest movement of it another step or style.
-// `placement`: where it sits, radians; what it adds to a pose it does not add to a difference.
+// Variance that sensors add to each entry of an observation, in the scale of the observation.
+// Without it a joint with a constant angle in each style would dominate the recognition of steps
+// and styles, and its slightest movement would look like another step or style. `placement`:
+// deviation of a sensor's placement, radians; it adds to poses, not to differences.
 Eigen::VectorXd sensor_variance(const Model& model, double placement) {
   constexpr double sensor_deviation = 3e-4;  // radians: 0.02 degrees, the quiet of a still suit
   std::vector<bool> turns;                   // per value
@@ -92,7 +92,7 @@ void set_states(Model& model, const StateTable& table,
       if (styles == 0) continue;
       state.style_means.resize(state.mean.size(), styles);
       for (int style = 0; style < styles; ++style)
-        // A style that never passed through here says nothing: it looks like all the others.
+        // A style without frames in this state gets the mean of all styles.
         state.style_means.col(style) =
             counted.style_counts[style] > 1e-6
                 ? Eigen::VectorXd(counted.style_sums.col(style) / counted.style_counts[style])

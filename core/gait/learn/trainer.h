@@ -1,4 +1,4 @@
-// From sequences to a model: observations, states, durations, styles.
+// Trainer: learns a model (observations, states, durations, styles) from sequences.
 #pragma once
 
 #include <string>
@@ -27,14 +27,14 @@ struct LearningTask {
 struct LearningOptions {
   int states = 8;                                              // per label
   std::vector<double> history{1.0 / 30, 5.0 / 30, 10.0 / 30};  // seconds back of input differences
-  // Radians by which a joint's sensor may sit or be calibrated otherwise than when it was learnt
-  // from; part of steps' and styles' covariances.
+  // Deviation in radians by which the placement or calibration of a joint's sensor may differ from
+  // training; added to the covariances of steps and styles.
   double placement = 0;
   HmmOptions hmm;
 };
 
-// All that learning knows at its end: the model, and what is needed to learn it again from a part
-// of the data.
+// Result of learning: the model, and the data needed to learn it again from a part of the
+// sequences.
 struct Learnt {
   Model model;
   ObservationSet observed;
@@ -42,12 +42,12 @@ struct Learnt {
   TrainedStates states;
 };
 
-// Throws Error when there is nothing to learn from.
+// Throws Error when the task holds nothing to learn from.
 Learnt learn(const LearningTask& task, const LearningOptions& options);
 
-// Puts states into a model from statistics: means, regularised covariances (with a quiet sensor's
-// variance and that of its placement), styles. `statistics`, `stay`: per state of all labels;
-// `target`: T's diagonal, over z.
+// Sets the states of a model from statistics: means, regularised covariances (plus the variance of
+// a sensor's noise and placement), styles. `statistics`, `stay`: per state of all labels; `target`:
+// T's diagonal, over z.
 void set_states(Model& model, const StateTable& table,
                 const std::vector<StateStatistics>& statistics, const std::vector<double>& stay,
                 const Eigen::VectorXd& target, double regularisation, double placement);

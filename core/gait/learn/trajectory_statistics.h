@@ -1,5 +1,5 @@
-// Statistics that walks without input follow (T14 §4.3): of inputs and outputs alike, per state and
-// style, values and their centred differences.
+// Trajectory statistics, which walks without input follow (T14 §4.3): means and variances of inputs
+// and outputs and of their centred differences, per state and style.
 #pragma once
 
 #include <vector>
@@ -11,8 +11,8 @@
 namespace gait {
 
 // Sets trajectory_means and trajectory_variances of the model's states. `sequences` as given to
-// observe(), `alignments` one per sequence of `observed`. A style that never passed through a state
-// gets the mean of all there.
+// observe(), `alignments` one per sequence of `observed`. A style without frames in a state
+// gets that state's mean over all styles.
 void set_trajectories(Model& model, const std::vector<Sequence>& sequences,
                       const ObservationSet& observed, const StateTable& table,
                       const std::vector<Alignment>& alignments);

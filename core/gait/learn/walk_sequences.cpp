@@ -8,6 +8,7 @@
 #include "gait/motion/contacts.h"
 #include "gait/motion/resample.h"
 #include "gait/motion/rotation.h"
+#include "gait/names.h"
 
 namespace gait {
 
@@ -25,15 +26,13 @@ std::vector<int> named_joints(const Skeleton& skeleton, const std::vector<std::s
   for (const std::string& name : names) {
     const int joint = skeleton.find(name);
     if (joint < 0)
-      unknown += (unknown.empty() ? "" : ", ") + name;
+      append_name(unknown, name);
     else if (std::find(joints.begin(), joints.end(), joint) == joints.end())
       joints.push_back(joint);
   }
-  if (!unknown.empty()) {
-    std::string known;
-    for (const Joint& joint : skeleton.joints) known += (known.empty() ? "" : ", ") + joint.name;
-    throw Error(std::string(which) + " joints: unknown: " + unknown + "; the clips have " + known);
-  }
+  if (!unknown.empty())
+    throw Error(std::string(which) + " joints: unknown: " + unknown + "; the clips have " +
+                joined_names(skeleton.joints, &Joint::name));
   std::sort(joints.begin(), joints.end());
   return joints;
 }
@@ -71,7 +70,7 @@ Body body_of(const Clip& clip, const WalkOptions& options) {
   return body;
 }
 
-// A clip seen through the body: its poses, and its steps at the model's rate.
+// A clip on the body: its poses, and its steps at the model's rate.
 struct Seen {
   std::vector<int> matched;
   double cycle_seconds = 0;
@@ -115,8 +114,8 @@ std::vector<Eigen::Quaterniond> references_of(const std::vector<Seen>& seen, int
   return references;
 }
 
-// How far knees and elbows bent, and about which axes, over all frames of all used clips but for
-// the one in a thousand at either end: what a frame of a capture that went wrong would say.
+// Axes and ranges of knees and elbows over all frames of all used clips, without one frame in a
+// thousand at either end of the range: these may be errors of the capture.
 std::vector<Hinge> hinges_of(const std::vector<Seen>& seen, const Body& body) {
   std::vector<Hinge> hinges;
   for (Hinge hinge : find_hinges(body.skeleton, body_roles(body))) {

@@ -1,4 +1,5 @@
-// From captured walks to sequences: the body they share, its streams, steps as segments.
+// Walk sequences: captured walks as sequences for learning, with the body they share, its streams,
+// and steps as segments.
 #pragma once
 
 #include <optional>
@@ -15,8 +16,8 @@ namespace gait {
 
 struct Walk {
   Clip clip;                      // metres, Y up
-  std::string style, subject;     // empty: not said
-  std::optional<double> speed;    // m/s, if said
+  std::string style, subject;     // empty: unknown
+  std::optional<double> speed;    // m/s, if known
   std::vector<Contact> contacts;  // empty: found in the clip
 };
 
@@ -28,7 +29,7 @@ struct WalkOptions {
   int fewest_steps = 4;                    // a clip with fewer is left out
 };
 
-// What became of one walk.
+// Whether and how learning used one walk.
 struct WalkUse {
   std::string name, style;
   bool used = false;
@@ -49,17 +50,16 @@ struct WalkSequences {
   std::vector<WalkUse> uses;          // one per walk
 };
 
-// The streams of one walk seen through a body: pose vectors of its input and output joints, and the
-// longest unbroken run of steps as segments (labels: 0 right, 1 left). `contacts` in frames of
-// `poses`.
+// One walk on a body: pose vectors of the body's input and output joints, and the longest unbroken
+// run of steps as segments (labels: 0 right, 1 left). `contacts` in frames of `poses`.
 Sequence walk_sequence(const Body& body, const BodyPoses& poses,
                        const std::vector<Contact>& contacts, const std::string& name);
 
 // Contacts at another frame rate, `ratio` times the one they were found at.
 std::vector<Contact> contacts_at(const std::vector<Contact>& contacts, double ratio);
 
-// Throws Error when nothing is left, when joints are named that are not there, or when the walks'
-// bodies do not match.
+// Throws Error when no walk is usable, when the options name joints that the clips lack, or when
+// the walks' bodies do not match.
 WalkSequences walk_sequences(const std::vector<Walk>& walks, const WalkOptions& options);
 
 }  // namespace gait

@@ -5,6 +5,7 @@
 #include "gait/error.h"
 #include "gait/motion/heading.h"
 #include "gait/motion/kinematics.h"
+#include "gait/names.h"
 
 namespace gait {
 
@@ -33,12 +34,6 @@ double rest_limit(Role role) {
     default:
       return rest_direction_limit;
   }
-}
-
-std::string listed(const std::vector<std::string>& names) {
-  std::string text;
-  for (const std::string& name : names) text += (text.empty() ? "" : ", ") + name;
-  return text;
 }
 
 }  // namespace
@@ -75,10 +70,10 @@ std::vector<int> match_joints(const Body& body, const Skeleton& skeleton, const 
       turned.push_back(mine.name);
   }
   if (!missing.empty())
-    throw Error(clip + ": expected the model's joints; missing: " + listed(missing));
+    throw Error(clip + ": expected the model's joints; missing: " + joined_names(missing));
   if (!turned.empty())
     throw Error(clip + ": expected bones that rest as the model's do (limbs within 10 " +
-                "degrees, trunk and head within 35); these differ: " + listed(turned));
+                "degrees, trunk and head within 35); these differ: " + joined_names(turned));
   return matched;
 }
 

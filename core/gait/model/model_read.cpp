@@ -6,6 +6,7 @@
 #include "gait/model/model_fields.h"
 #include "gait/model/model_file.h"
 #include "gait/model/model_words.h"
+#include "gait/names.h"
 
 namespace gait {
 
@@ -19,7 +20,7 @@ auto kind_of(const Words& words, const ModelField& field) {
   std::string known;
   for (const auto& [kind, word] : words) {
     if (field.text() == word) return kind;
-    known += (known.empty() ? "" : ", ") + std::string(word);
+    append_name(known, word);
   }
   field.fail("one of " + known + ", found '" + field.text() + "'");
 }

@@ -2,6 +2,7 @@
 #include <nlohmann/json.hpp>
 
 #include "gait/error.h"
+#include "gait/files/whole_file.h"
 #include "gait/model/model_field.h"
 #include "gait/model/model_fields.h"
 #include "gait/model/model_file.h"
@@ -118,18 +119,7 @@ std::vector<std::uint8_t> model_bytes(const Model& model) {
 
 void write_model(const Model& model, const std::filesystem::path& path) {
   const std::vector<std::uint8_t> bytes = model_bytes(model);
-  std::filesystem::path unfinished = path;
-  unfinished += ".part";
-  std::error_code error, ignored;
-  std::ofstream stream(unfinished, std::ios::binary);
-  stream.write(reinterpret_cast<const char*>(bytes.data()),
-               static_cast<std::streamsize>(bytes.size()));
-  stream.close();
-  if (stream) std::filesystem::rename(unfinished, path, error);
-  if (!stream || error) {
-    std::filesystem::remove(unfinished, ignored);
-    throw Error(path.string() + ": cannot be written" + (error ? ": " + error.message() : ""));
-  }
+  write_whole_file(path, {reinterpret_cast<const char*>(bytes.data()), bytes.size()});
 }
 
 }  // namespace gait

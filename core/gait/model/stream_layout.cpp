@@ -4,6 +4,8 @@
 #include <cmath>
 #include <numeric>
 
+#include "gait/motion/finite.h"
+
 namespace gait {
 
 namespace {
@@ -61,7 +63,7 @@ int StreamLayout::stream_of(int joint) const noexcept {
 
 bool StreamLayout::fits(int stream, std::span<const float> values) const noexcept {
   return has(stream) && values.size() == static_cast<std::size_t>((*this)[stream].size) &&
-         std::ranges::all_of(values, [](float value) { return std::isfinite(value); });
+         all_finite(values);
 }
 
 }  // namespace gait

@@ -19,22 +19,22 @@ struct Unit {
   double metres;
 };
 
-// What a file may be in, the usual ones first. MakeHuman writes decimetres; CMU's own files are in
-// units of 1/0.45 inch.
-constexpr std::size_t kUsualUnits = 4;
-constexpr std::array<Unit, 7> kUnits{{{"m", 1},
-                                      {"cm", 0.01},
-                                      {"mm", 0.001},
-                                      {"in", 0.0254},
-                                      {"ft", 0.3048},
-                                      {"dm", 0.1},
-                                      {"cmu", 0.0254 / 0.45}}};
+// Units of files, the usual ones first. MakeHuman writes decimetres; CMU's own files are in units
+// of 1/0.45 inch.
+constexpr std::size_t usual_units = 4;
+constexpr std::array<Unit, 7> units{{{"m", 1},
+                                     {"cm", 0.01},
+                                     {"mm", 0.001},
+                                     {"in", 0.0254},
+                                     {"ft", 0.3048},
+                                     {"dm", 0.1},
+                                     {"cmu", 0.0254 / 0.45}}};
 
 // Thigh and shank of a grown person (m); the ranges of the units above do not overlap within it.
-constexpr double kUsualLeg = 0.83, kShortestLeg = 0.62, kLongestLeg = 1.1;
+constexpr double usual_leg = 0.83, shortest_leg = 0.62, longest_leg = 1.1;
 // Height over thigh and shank, 0.245 and 0.246 of it (Drillis and Contini 1966): for rigs whose
 // legs have no names.
-constexpr double kHeightOverLeg = 2.04;
+constexpr double height_over_leg = 2.04;
 
 struct Measured {
   Eigen::Vector3d feet_to_head = Eigen::Vector3d::Zero();  // mean over frames, file's unit
@@ -42,7 +42,7 @@ struct Measured {
   double leg = 0;                                          // mean thigh + shank, file's unit
 };
 
-// Highest joint the names know, to tell up from down.
+// The highest joint with a known name, to find the direction up.
 int top_joint(const JointRoles& roles) {
   for (const Role role : {Role::head, Role::neck, Role::spine, Role::hips})
     if (const int joint = roles.joint(role); joint >= 0) return joint;
@@ -84,11 +84,11 @@ std::string number_text(double value) {
   return {digits.data(), end.ptr};
 }
 
-// Below this, what frames say of up cancels out.
-constexpr double kLeastAgreement = 0.5;
+// Below this agreement the frames' directions cancel out.
+constexpr double least_agreement = 0.5;
 
 void guess_up(const Clip& clip, const Eigen::Vector3d& feet_to_head, BodyFrame& frame) {
-  if (feet_to_head.norm() > 0 && frame.up_agreement < kLeastAgreement) {
+  if (feet_to_head.norm() > 0 && frame.up_agreement < least_agreement) {
     frame.warnings.push_back(clip.name +
                              ": which way is up is doubtful, as the body turns over and over; "
                              "taking Y (say --up x, y or z)");
@@ -105,7 +105,7 @@ void guess_up(const Clip& clip, const Eigen::Vector3d& feet_to_head, BodyFrame& 
   const double sign = feet_to_head[axis] < 0 ? -1 : 1;
   frame.to_y_up = onto_y(axis, sign);
   const std::string name = std::string(sign < 0 ? "-" : "") + "XYZ"[axis];
-  // A walker leans a little; one who lies or sits does not tell.
+  // A walker leans a little. A body that lies or sits does not show which way is up.
   if (along < std::cos(30 * std::numbers::pi / 180) * feet_to_head.norm())
     frame.warnings.push_back(
         clip.name + ": which way is up is doubtful, as feet to head lean by " +
@@ -135,7 +135,7 @@ double extent(const Clip& clip) {
 
 void guess_unit(const Clip& clip, double leg, BodyFrame& frame) {
   const bool legs_known = leg > 0;
-  if (!legs_known) leg = extent(clip) / kHeightOverLeg;
+  if (!legs_known) leg = extent(clip) / height_over_leg;
   if (!(leg > 0)) {
     frame.metres_per_unit = 0.01;
     frame.warnings.push_back(clip.name +
@@ -145,19 +145,19 @@ void guess_unit(const Clip& clip, double leg, BodyFrame& frame) {
   }
   const Unit* best = nullptr;
   double least = INFINITY;
-  for (const Unit& unit : std::span(kUnits).first(legs_known ? kUnits.size() : kUsualUnits))
-    if (const double far = std::abs(std::log(leg * unit.metres / kUsualLeg)); far < least) {
+  for (const Unit& unit : std::span(units).first(legs_known ? units.size() : usual_units))
+    if (const double far = std::abs(std::log(leg * unit.metres / usual_leg)); far < least) {
       least = far;
       best = &unit;
     }
   frame.metres_per_unit = best->metres;
   const double metres = leg * best->metres;
-  if (legs_known && metres >= kShortestLeg && metres <= kLongestLeg) return;
+  if (legs_known && metres >= shortest_leg && metres <= longest_leg) return;
   frame.warnings.push_back(
       clip.name + ": the unit is doubtful, as " +
       (legs_known
            ? "a leg of " + number_text(leg) + " units"
-           : "no legs are known and a body of " + number_text(leg * kHeightOverLeg) + " units") +
+           : "no legs are known and a body of " + number_text(leg * height_over_leg) + " units") +
       " fits none well; taking " + std::string(best->name) + ", " + number_text(metres) +
       " m of leg (say --unit m, cm, mm, in, ft or metres per unit)");
 }
@@ -165,7 +165,7 @@ void guess_unit(const Clip& clip, double leg, BodyFrame& frame) {
 }  // namespace
 
 double metres_per_unit_named(std::string_view unit) {
-  for (const Unit& known : kUnits)
+  for (const Unit& known : units)
     if (known.name == unit) return known.metres;
   const auto metres = number_in(unit);
   if (metres && *metres >= 1e-6 && *metres <= 1e6) return *metres;

@@ -13,7 +13,7 @@ namespace {
 
 constexpr double shortest_bone = 0.01;  // metres; shorter ones have no direction to speak of
 
-// Where a limb's bone points; nothing for joints that are not swung.
+// Direction of a limb's bone in the pose; nothing for joints that are not swung.
 std::optional<Eigen::Vector3d> direction_of(Role role, CalibrationPose pose) {
   const bool out = pose == CalibrationPose::t;
   switch (role) {
@@ -35,8 +35,8 @@ std::optional<Eigen::Vector3d> direction_of(Role role, CalibrationPose pose) {
   }
 }
 
-// The way from a joint to where its limb goes on, in its own frame: to the next joint of the limb,
-// over joints without a role.
+// Vector from a joint to the next joint of its limb, in the joint's frame; joints without a role in
+// between are passed.
 Eigen::Vector3d limb_of(const Skeleton& skeleton, const JointRoles& roles, int joint) {
   const Role role = roles.of_joint[joint];
   const bool hand = role == Role::left_hand || role == Role::right_hand;
@@ -68,7 +68,7 @@ std::vector<Eigen::Quaterniond> calibration_pose(const Skeleton& skeleton, const
   if (!roles.has_legs())
     throw Error("expected a rig whose hips and legs are known, to stand in a calibration pose");
   std::vector<Eigen::Quaterniond> world(usual.begin(), usual.end());
-  // What lies above the hips carries the walk, not the body: it does not count.
+  // Joints above the hips carry the walk through the world; they are no part of the body's pose.
   const auto stand = [&](const Eigen::Quaterniond& turn) {
     for (int joint = 0; joint < skeleton.size(); ++joint) {
       const int parent = skeleton.joints[joint].parent;

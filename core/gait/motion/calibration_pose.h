@@ -1,6 +1,6 @@
-// Calibration poses: how a rig's joints are turned when its body stands in the T-pose (arms out to
-// the sides) or the I-pose (arms hanging). What a live sender is at the same moment is set equal to
-// it, so that both need not rest alike.
+// Calibration poses: the rotations of a rig's joints when its body stands in the T-pose (arms out
+// to the sides) or the I-pose (arms hanging). A live sender in the same pose is set equal to them,
+// so the rest poses of both rigs may differ.
 #pragma once
 
 #include <Eigen/Geometry>
@@ -14,10 +14,10 @@ namespace gait {
 
 enum class CalibrationPose { t, i };
 
-// World rotation of every joint, the body looking along +Z. `usual`: local rotations of a pose the
-// rig really takes (the mean of a walk; the hips' with heading out), from which arms and legs are
-// swung the shortest way, so that they are twisted as a person's are; the trunk stays as it is.
-// Skeleton in metres; needs hips and legs (JointRoles::has_legs), else Error.
+// Rotation of every joint in the world, the body facing +Z. `usual`: local rotations of a natural
+// pose of this rig, such as the mean of a walk, the hips' without heading. Arms and legs are swung
+// from it the shortest way, so their twist stays a person's; the trunk keeps that pose. Skeleton in
+// metres. Throws Error when hips or legs are missing (JointRoles::has_legs).
 std::vector<Eigen::Quaterniond> calibration_pose(const Skeleton& skeleton, const JointRoles& roles,
                                                  std::span<const Eigen::Quaterniond> usual,
                                                  CalibrationPose pose);

@@ -35,9 +35,9 @@ class Walk {
         .dot(heading_direction(heading[frame]));
   }
 
-  // How far from one frame to another the point of a foot goes back against the hips that goes back
-  // farthest, metres: the one that is on the ground. The foot's joint alone travels while the foot
-  // rolls, and loses a twentieth.
+  // Largest backward travel of a foot's points relative to the hips between two frames, metres: the
+  // point on the ground travels farthest. The ankle alone would read a twentieth too little,
+  // because it moves forward while the foot rolls.
   double stance_travel(int from, int to, Foot which, const std::vector<double>& heading) const {
     double farthest = std::numeric_limits<double>::lowest();
     const auto ahead_of_hips = [&](int frame, int joint, const Eigen::Vector3d& tip) {
@@ -122,8 +122,8 @@ double stance_speed(const Walk& walk, const WalkTrack& track, double frame_rate)
   for (std::size_t i = 0; i + 1 < track.contacts.size(); ++i) {
     const Contact& contact = track.contacts[i];
     const int length = track.contacts[i + 1].frame - contact.frame;
-    // Without the landing and the other foot's. Over a thirtieth of a second at a time: frame by
-    // frame the trembling of sensors would look like speed.
+    // Leaves out the landing of this foot and of the other. Measures over a thirtieth of a second,
+    // because from frame to frame the noise of sensors would look like speed.
     const int end = contact.frame + (9 * length) / 10;
     const int stride = std::max(1, static_cast<int>(std::lround(frame_rate / 30)));
     double travel = 0;

@@ -1,5 +1,5 @@
-// Contacts of a captured walk, found by looking at all of it (Zeni et al. 2008): a foot touches
-// when it is farthest ahead of the hips along the heading.
+// Contacts of a captured walk, found from the whole clip (Zeni et al. 2008): a foot touches the
+// ground when it is farthest ahead of the hips along the heading.
 #pragma once
 
 #include <vector>
@@ -11,19 +11,20 @@
 
 namespace gait {
 
-// What a walk's own kinematics say about it. One entry per frame where there are several.
+// Quantities of a walk that follow from its kinematics. Vectors without another comment have one
+// entry per frame.
 struct WalkTrack {
   WorldPoses world;             // metres, Y up; frame after frame, one entry per joint
   std::vector<double> heading;  // radians, unwrapped
   std::vector<Contact> contacts;
   double cycle_seconds = 1.1;  // median time from contact to the same foot's next contact
-  double speed = 0;            // m/s along the ground, also backwards
-  bool treadmill = false;      // the root stays where it is while the feet travel
+  double speed = 0;            // m/s along the ground, positive when walking backwards too
+  bool treadmill = false;      // the root stays in place while the feet travel
   double leg_length = 0;       // thigh + shank, metres
 };
 
-// Follows a clip in metres with Y up. Throws Error when hips, thighs, shanks or feet are missing; a
-// clip without steps has no contacts and that is no error.
+// Follows a clip in metres with Y up. Throws Error when hips, thighs, shanks or feet are missing. A
+// clip without steps has no contacts; that is not an error.
 WalkTrack follow_walk(const Clip& clip, const JointRoles& roles);
 
 // Cycles during which the heading changes by less than `limit` radians (T10 §3).

@@ -8,7 +8,7 @@ namespace gait {
 
 namespace {
 
-// Below this share of a leg's length per cycle the root's travel says nothing about direction.
+// A root that travels less than this share of a leg's length per cycle has no direction of travel.
 constexpr double still_travel_per_leg = 0.3;
 
 double unwrapped(double angle, double near) {

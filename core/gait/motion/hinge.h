@@ -20,11 +20,11 @@ struct Hinge {
   // Thigh, shank, foot; or arm, forearm, hand. Without a hand (-1) the forearm goes to its tip.
   int above = -1, joint = -1, below = -1;
   Eigen::Vector3d axis = Eigen::Vector3d::UnitX();
-  double least = 0, most = 0;  // angles as they were seen
+  double least = 0, most = 0;  // range of the angle in the training data
 };
 
-// The knees and elbows that the roles know, without axis and angles: right knee, left knee, right
-// elbow, left elbow.
+// The knees and elbows among the roles, without axis and range: right knee, left knee, right elbow,
+// left elbow.
 std::vector<Hinge> find_hinges(const Skeleton& skeleton, const JointRoles& roles);
 
 template <typename Scalar>
@@ -38,8 +38,8 @@ struct HingeBones {
   }
 };
 
-// `pose`: local rotations, one per joint. Whatever joints are between, the bones go from hinge to
-// hinge.
+// Both bones of a hinge in a pose. `pose`: local rotations, one per joint. Joints in between are
+// passed.
 template <typename Scalar>
 HingeBones<Scalar> hinge_bones(const Skeleton& skeleton, const Hinge& hinge,
                                std::span<const Quaternion<Scalar>> pose) noexcept {

@@ -12,35 +12,36 @@ namespace {
 struct Named {
   std::string_view name;
   int parent;
-  double x, y, z;  // usual offset, metres; x for the left side
+  double x, y, z;  // usual offset, metres
+  Role role = Role::none;
 };
 
 constexpr int fingers_begin = index_of(Bone::left_fingers);
 
 // Lengths of a usual body: shares of its height after Winter 2009, table 4.1, at 1.70 m.
 constexpr std::array<Named, main_bones + 3> bones{{
-    {"Hips", -1, 0, 0.93, 0},
-    {"Spine", 0, 0, 0.10, 0},
+    {"Hips", -1, 0, 0.93, 0, Role::hips},
+    {"Spine", 0, 0, 0.10, 0, Role::spine},
     {"Chest", 1, 0, 0.13, 0},
     {"UpperChest", 2, 0, 0.12, 0},
-    {"Neck", 3, 0, 0.14, 0},
-    {"Head", 4, 0, 0.09, 0},
-    {"LeftShoulder", 3, 0.03, 0.10, 0},
-    {"LeftUpperArm", 6, 0.14, 0, 0},
-    {"LeftLowerArm", 7, 0.30, 0, 0},
-    {"LeftHand", 8, 0.25, 0, 0},
-    {"RightShoulder", 3, -0.03, 0.10, 0},
-    {"RightUpperArm", 10, -0.14, 0, 0},
-    {"RightLowerArm", 11, -0.30, 0, 0},
-    {"RightHand", 12, -0.25, 0, 0},
-    {"LeftUpperLeg", 0, 0.09, -0.02, 0},
-    {"LeftLowerLeg", 14, 0, -0.42, 0},
-    {"LeftFoot", 15, 0, -0.42, 0},
-    {"LeftToes", 16, 0, -0.05, 0.13},
-    {"RightUpperLeg", 0, -0.09, -0.02, 0},
-    {"RightLowerLeg", 18, 0, -0.42, 0},
-    {"RightFoot", 19, 0, -0.42, 0},
-    {"RightToes", 20, 0, -0.05, 0.13},
+    {"Neck", 3, 0, 0.14, 0, Role::neck},
+    {"Head", 4, 0, 0.09, 0, Role::head},
+    {"LeftShoulder", 3, 0.03, 0.10, 0, Role::left_shoulder},
+    {"LeftUpperArm", 6, 0.14, 0, 0, Role::left_arm},
+    {"LeftLowerArm", 7, 0.30, 0, 0, Role::left_forearm},
+    {"LeftHand", 8, 0.25, 0, 0, Role::left_hand},
+    {"RightShoulder", 3, -0.03, 0.10, 0, Role::right_shoulder},
+    {"RightUpperArm", 10, -0.14, 0, 0, Role::right_arm},
+    {"RightLowerArm", 11, -0.30, 0, 0, Role::right_forearm},
+    {"RightHand", 12, -0.25, 0, 0, Role::right_hand},
+    {"LeftUpperLeg", 0, 0.09, -0.02, 0, Role::left_thigh},
+    {"LeftLowerLeg", 14, 0, -0.42, 0, Role::left_shank},
+    {"LeftFoot", 15, 0, -0.42, 0, Role::left_foot},
+    {"LeftToes", 16, 0, -0.05, 0.13, Role::left_toes},
+    {"RightUpperLeg", 0, -0.09, -0.02, 0, Role::right_thigh},
+    {"RightLowerLeg", 18, 0, -0.42, 0, Role::right_shank},
+    {"RightFoot", 19, 0, -0.42, 0, Role::right_foot},
+    {"RightToes", 20, 0, -0.05, 0.13, Role::right_toes},
     {"Jaw", 5, 0, 0.02, 0.05},
     {"LeftEye", 5, 0.03, 0.06, 0.08},
     {"RightEye", 5, -0.03, 0.06, 0.08},
@@ -66,6 +67,12 @@ bool same_letters(std::string_view a, std::string_view b) {
   });
 }
 
+// -1 for Role::none; the spine's first bone for Role::spine.
+int bone_of(Role role) {
+  const auto bone = std::ranges::find(bones, role, &Named::role);
+  return role == Role::none || bone == bones.end() ? -1 : static_cast<int>(bone - bones.begin());
+}
+
 }  // namespace
 
 std::string_view bone_name(int bone) {
@@ -78,54 +85,6 @@ int bone_parent(int bone) {
   const int finger = bone - fingers_begin;
   if (finger % 3 != 0) return bone - 1;
   return index_of(finger < 15 ? Bone::left_hand : Bone::right_hand);
-}
-
-int bone_of(Role role) {
-  switch (role) {
-    case Role::hips:
-      return index_of(Bone::hips);
-    case Role::spine:
-      return index_of(Bone::spine);
-    case Role::neck:
-      return index_of(Bone::neck);
-    case Role::head:
-      return index_of(Bone::head);
-    case Role::left_shoulder:
-      return index_of(Bone::left_shoulder);
-    case Role::left_arm:
-      return index_of(Bone::left_upper_arm);
-    case Role::left_forearm:
-      return index_of(Bone::left_lower_arm);
-    case Role::left_hand:
-      return index_of(Bone::left_hand);
-    case Role::right_shoulder:
-      return index_of(Bone::right_shoulder);
-    case Role::right_arm:
-      return index_of(Bone::right_upper_arm);
-    case Role::right_forearm:
-      return index_of(Bone::right_lower_arm);
-    case Role::right_hand:
-      return index_of(Bone::right_hand);
-    case Role::left_thigh:
-      return index_of(Bone::left_upper_leg);
-    case Role::left_shank:
-      return index_of(Bone::left_lower_leg);
-    case Role::left_foot:
-      return index_of(Bone::left_foot);
-    case Role::left_toes:
-      return index_of(Bone::left_toes);
-    case Role::right_thigh:
-      return index_of(Bone::right_upper_leg);
-    case Role::right_shank:
-      return index_of(Bone::right_lower_leg);
-    case Role::right_foot:
-      return index_of(Bone::right_foot);
-    case Role::right_toes:
-      return index_of(Bone::right_toes);
-    case Role::none:
-      break;
-  }
-  return -1;
 }
 
 int bone_named(std::string_view name) {

@@ -1,10 +1,10 @@
-// Humanoid: the bones that programs which exchange live motion agree on, whatever their rigs are
-// called. Names and tree are those of Unity's HumanBodyBones, which the VMC protocol takes over.
+// Humanoid: the set of bones by which programs exchange live motion, independent of the names in
+// their rigs. Names and tree are those of Unity's HumanBodyBones, which the VMC protocol uses.
 //
-// A body's pose is told by turns: per bone the rotation in the world since the T-pose, in which the
-// body stands upright, looks along +Z and stretches its arms along +X (left) and -X. Turns say
-// nothing of how a rig's joints lie at rest, so every rig can be read and driven by them. Metres, Y
-// up, right-handed.
+// A pose is a set of turns: per bone its rotation in the world since the T-pose, in which the body
+// stands upright, faces +Z and stretches its arms along +X (left) and -X (right). Turns do not
+// depend on the rest rotations of a rig's joints, so every rig can be read and driven by them.
+// Metres, Y up, right-handed.
 #pragma once
 
 #include <Eigen/Geometry>
@@ -42,7 +42,7 @@ enum class Bone {  // parents before children
   right_lower_leg,
   right_foot,
   right_toes,
-  // Without roles in walking; carried along where a recording wants them.
+  // Bones without a role in walking; recordings keep them.
   jaw,
   left_eye,
   right_eye,
@@ -57,13 +57,12 @@ constexpr int index_of(Bone bone) { return static_cast<int>(bone); }
 
 std::string_view bone_name(int bone);  // "LeftUpperArm"
 int bone_parent(int bone);             // -1 for the hips
-// By Unity's name in any case, or by what another rig's joint of that name is; -1: none of these.
+// Finds a bone by Unity's name, in upper or lower case, or by a joint's name in another known rig;
+// -1: the name is not known.
 int bone_named(std::string_view name);
-// Of a role; the spine's first for Role::spine, -1 for Role::none.
-int bone_of(Role role);
 
-// What each joint of a skeleton takes from the bones. Where a spine or neck has several joints,
-// each takes its share of the way.
+// The bone that a joint of a skeleton follows. Where a spine or neck has several joints, each takes
+// its share of the turn.
 struct JointBone {
   int bone = -1;     // -1: follows its parent
   double share = 1;  // of the turn from the bone before; for the spine: of the whole spine
@@ -71,7 +70,7 @@ struct JointBone {
 std::vector<JointBone> bones_of_joints(const Skeleton& skeleton, std::span<const Role> roles);
 
 struct HumanoidPose {
-  std::bitset<humanoid_bones> turned, placed;  // what is known
+  std::bitset<humanoid_bones> turned, placed;  // bones whose turn or place is known
   std::array<Eigen::Quaterniond, humanoid_bones> turns;
   std::array<Eigen::Vector3d, humanoid_bones> places;  // in the world, metres
 
@@ -82,13 +81,13 @@ struct HumanoidPose {
     turns.fill(Eigen::Quaterniond::Identity());
     places.fill(Eigen::Vector3d::Zero());
   }
-  // The nearest bone above that is turned, -1 when there is none.
+  // The nearest bone above whose turn is known, -1 when there is none.
   int turned_above(int bone) const noexcept {
     do bone = bone_parent(bone);
     while (bone >= 0 && !turned[static_cast<std::size_t>(bone)]);
     return bone;
   }
-  // Relative to that bone; in the world where there is none.
+  // Turn relative to that bone; in the world when there is none.
   Eigen::Quaterniond local_turn(int bone) const noexcept {
     const int above = turned_above(bone);
     return above < 0 ? turns[bone] : turns[above].conjugate() * turns[bone];
@@ -103,7 +102,7 @@ struct HumanoidPose {
   }
 };
 
-// From a frame that mirrors X to ours, and back: Unity's is left-handed with X to the right.
+// Converts between our frame and one with X mirrored: Unity's is left-handed with X to the right.
 inline Eigen::Quaterniond mirrored(const Eigen::Quaterniond& q) noexcept {
   return {q.w(), q.x(), -q.y(), -q.z()};
 }
@@ -111,8 +110,8 @@ inline Eigen::Vector3d mirrored(const Eigen::Vector3d& v) noexcept {
   return {-v.x(), v.y(), v.z()};
 }
 
-// Offsets of a person of 1.7 m in the T-pose, per bone from its parent: for senders that tell no
-// positions.
+// Offset of a bone from its parent, for a person of 1.7 m in the T-pose, metres: stands in where a
+// sender has no positions.
 Eigen::Vector3d usual_offset(int bone);
 
 }  // namespace gait

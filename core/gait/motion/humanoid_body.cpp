@@ -57,7 +57,7 @@ HumanoidBody::HumanoidBody(const Skeleton& skeleton, const JointRoles& roles,
     else if (joints_[joint].bone >= 0)
       joint_of_[joints_[joint].bone] = joint;  // of several, the last
   }
-  // Three bones for however many joints: the lowest, one in the middle, the highest.
+  // The three bones of the spine are read from its lowest, middle and highest joint.
   if (!spine_joints.empty()) joint_of_[spine] = spine_joints.front();
   if (spine_joints.size() == 2) joint_of_[spine + 1] = spine_joints[1];
   if (spine_joints.size() > 2) {
@@ -84,7 +84,7 @@ void HumanoidBody::read(std::span<const Eigen::Quaterniond> world,
   }
 }
 
-// The sender's spine, however many bones it has, is one way from the hips up.
+// Treats the sender's spine as one turn from the hips up, whatever its number of bones.
 bool HumanoidBody::spine_turn(const HumanoidPose& pose, double share,
                               Eigen::Quaterniond& turn) const noexcept {
   int count = 0;
@@ -137,7 +137,7 @@ bool HumanoidBody::driven(const HumanoidPose& pose, int joint) const noexcept {
   Eigen::Quaterniond ignored;
   if (!turn_of(pose, joint, ignored)) return false;
   if (joint == hips_) return true;
-  // Over joints of no bone nothing is lost; over a bone that is not known everything is.
+  // Joints without a bone are passed; a bone above whose turn is not known leaves this one unknown.
   return above_[joint] < 0 || above_[joint] == hips_ ? pose.turned[index_of(Bone::hips)]
                                                      : turn_of(pose, above_[joint], ignored);
 }

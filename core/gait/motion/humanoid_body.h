@@ -1,7 +1,7 @@
-// Humanoid body: a rig that can be told as a humanoid, and be driven by one.
+// Humanoid body: conversion between the pose of a rig and the turns of a humanoid.
 //
-// Both ways go by what each joint's rotation in the world is when the body stands in the T-pose,
-// W0: a joint with rotation W has turned by W W0^-1, and one that has turned by D stands at D W0.
+// W0 is a joint's rotation in the world when the body stands in the T-pose. A joint with rotation W
+// has turned by D = W W0^-1; a joint that has turned by D has rotation D W0.
 #pragma once
 
 #include <Eigen/Geometry>
@@ -15,8 +15,9 @@
 
 namespace gait {
 
-// The mean pose of a clip: local rotations, the hips' in the world with heading out. What
-// calibration_pose and HumanoidBody want of a rig that no model speaks for. Needs legs and a frame.
+// The mean pose of a clip: local rotations, the hips' in the world without heading. It is the
+// `usual` pose for calibration_pose and HumanoidBody of a rig without a model. The clip needs legs
+// and at least one frame.
 std::vector<Eigen::Quaterniond> usual_pose(const Clip& clip, const JointRoles& roles);
 
 class HumanoidBody {
@@ -25,20 +26,19 @@ class HumanoidBody {
   HumanoidBody(const Skeleton& skeleton, const JointRoles& roles,
                std::span<const Eigen::Quaterniond> usual);
 
-  // Turns and places of the bones this rig has. `world`, `places`: per joint, rotation in the world
-  // and place (metres); without places none are told.
+  // Reads the turns and places of the bones that this rig has. `world`, `places`: per joint its
+  // rotation in the world and its place (metres); with empty `places` no place is set.
   void read(std::span<const Eigen::Quaterniond> world, std::span<const Eigen::Vector3d> places,
             HumanoidPose& pose) const noexcept;
 
-  // The rig's local rotations, the hips' in the world, from turns. What has no turn is at rest
-  // against its parent, as in the T-pose.
+  // Sets the rig's local rotations, the hips' in the world, from turns. A joint without a turn has
+  // the rotation relative to its parent that it has in the T-pose.
   void drive(const HumanoidPose& pose, std::span<Eigen::Quaterniond> local) noexcept;
-  // Whether a joint's rotation says something of this pose: its bone and the one its parent goes by
+  // Whether a joint's rotation is determined by this pose: its own bone and the bone of its parent
   // are turned.
   bool driven(const HumanoidPose& pose, int joint) const noexcept;
 
-  // Turns of the bones from T-pose to this calibration pose: what a sender that stands in it has
-  // turned by.
+  // Turns of the bones from the T-pose to this calibration pose.
   const HumanoidPose& calibration(CalibrationPose pose) const noexcept {
     return pose == CalibrationPose::t ? t_pose_ : i_pose_;
   }

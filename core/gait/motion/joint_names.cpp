@@ -10,7 +10,7 @@ namespace {
 
 enum class Side { none, left, right };
 
-// What a name says; the last four depend on the other names of the same side.
+// Part of the body in a name; the last four depend on the other names of the same side.
 enum class Part {
   unknown,
   hips,
@@ -36,7 +36,7 @@ struct Name {
   Part part = Part::unknown;
 };
 
-constexpr std::array<std::pair<std::string_view, Part>, 21> kMiddle{{
+constexpr std::array<std::pair<std::string_view, Part>, 21> middle{{
     {"hips", Part::hips},       {"hip", Part::hips},
     {"pelvis", Part::hips},     {"hipcenter", Part::hips},
     {"spine", Part::spine},     {"spinebase", Part::spine},
@@ -50,7 +50,7 @@ constexpr std::array<std::pair<std::string_view, Part>, 21> kMiddle{{
     {"head", Part::head},
 }};
 
-constexpr std::array<std::pair<std::string_view, Part>, 43> kSided{{
+constexpr std::array<std::pair<std::string_view, Part>, 43> sided{{
     {"collar", Part::shoulder},   {"clavicle", Part::shoulder}, {"shoulder", Part::shoulder_or_arm},
     {"arm", Part::arm},           {"uparm", Part::arm},         {"upperarm", Part::arm},
     {"uarm", Part::arm},          {"humerus", Part::arm},       {"forearm", Part::forearm},
@@ -130,10 +130,10 @@ Name name_in_one_word(std::string_view word) {
       {{"left", Side::left}, {"right", Side::right}, {"l", Side::left}, {"r", Side::right}}};
   for (const auto& [text, side] : sides) {
     if (word.starts_with(text))
-      if (const Part part = look_up(kSided, word.substr(text.size())); part != Part::unknown)
+      if (const Part part = look_up(sided, word.substr(text.size())); part != Part::unknown)
         return {side, part};
     if (text.size() > 1 && word.ends_with(text))
-      if (const Part part = look_up(kSided, word.substr(0, word.size() - text.size()));
+      if (const Part part = look_up(sided, word.substr(0, word.size() - text.size()));
           part != Part::unknown)
         return {side, part};
   }
@@ -167,45 +167,39 @@ Name name_meant(std::string_view joint) {
     std::string text;
     for (std::size_t i = first; i < words.size(); ++i) text += words[i].text;
     if (side == Side::none) {
-      if (const Part part = look_up(kMiddle, text); part != Part::unknown) return {side, part};
+      if (const Part part = look_up(middle, text); part != Part::unknown) return {side, part};
       if (const Name name = name_in_one_word(text); name.part != Part::unknown) return name;
-    } else if (const Part part = look_up(kSided, text); part != Part::unknown) {
+    } else if (const Part part = look_up(sided, text); part != Part::unknown) {
       return {side, part};
     }
   }
   return {};
 }
 
+struct PartRoles {
+  Part part;
+  Role right, left;
+};
+
+constexpr std::array<PartRoles, 12> part_roles{{
+    {Part::hips, Role::hips, Role::hips},
+    {Part::spine, Role::spine, Role::spine},
+    {Part::neck, Role::neck, Role::neck},
+    {Part::head, Role::head, Role::head},
+    {Part::shoulder, Role::right_shoulder, Role::left_shoulder},
+    {Part::arm, Role::right_arm, Role::left_arm},
+    {Part::forearm, Role::right_forearm, Role::left_forearm},
+    {Part::hand, Role::right_hand, Role::left_hand},
+    {Part::thigh, Role::right_thigh, Role::left_thigh},
+    {Part::shank, Role::right_shank, Role::left_shank},
+    {Part::foot, Role::right_foot, Role::left_foot},
+    {Part::toes, Role::right_toes, Role::left_toes},
+}};
+
 Role role_of(Side side, Part part) {
-  const bool left = side == Side::left;
-  switch (part) {
-    case Part::hips:
-      return Role::hips;
-    case Part::spine:
-      return Role::spine;
-    case Part::neck:
-      return Role::neck;
-    case Part::head:
-      return Role::head;
-    case Part::shoulder:
-      return left ? Role::left_shoulder : Role::right_shoulder;
-    case Part::arm:
-      return left ? Role::left_arm : Role::right_arm;
-    case Part::forearm:
-      return left ? Role::left_forearm : Role::right_forearm;
-    case Part::hand:
-      return left ? Role::left_hand : Role::right_hand;
-    case Part::thigh:
-      return left ? Role::left_thigh : Role::right_thigh;
-    case Part::shank:
-      return left ? Role::left_shank : Role::right_shank;
-    case Part::foot:
-      return left ? Role::left_foot : Role::right_foot;
-    case Part::toes:
-      return left ? Role::left_toes : Role::right_toes;
-    default:
-      return Role::none;
-  }
+  const auto roles = std::ranges::find(part_roles, part, &PartRoles::part);
+  if (roles == part_roles.end()) return Role::none;
+  return side == Side::left ? roles->left : roles->right;
 }
 
 bool any_above(const Skeleton& skeleton, const std::vector<Name>& names, int joint, Part part) {

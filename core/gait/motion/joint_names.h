@@ -1,4 +1,4 @@
-// What a joint's name suggests it is. Private to finding roles.
+// Joint names: roles from the names that rigs use. Private to finding roles.
 #pragma once
 
 #include <vector>

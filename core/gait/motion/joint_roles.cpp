@@ -6,11 +6,12 @@
 
 #include "gait/error.h"
 #include "gait/motion/joint_names.h"
+#include "gait/names.h"
 
 namespace gait {
 namespace {
 
-constexpr std::array<std::pair<Role, std::string_view>, 21> kRoleNames{{
+constexpr std::array<std::pair<Role, std::string_view>, 21> role_names{{
     {Role::none, "none"},
     {Role::hips, "hips"},
     {Role::spine, "spine"},
@@ -92,7 +93,7 @@ void choose_hips(const Skeleton& skeleton, JointRoles& roles, const std::vector<
   roles.hips = chosen;
 }
 
-// Roles that the table gives; what it says of a role, names no longer decide.
+// Sets the roles in the table; names then no longer decide about these roles.
 std::vector<bool> apply_table(const Skeleton& skeleton, const RoleTable& table, JointRoles& roles) {
   std::vector<bool> said(skeleton.joints.size(), false);
   std::vector<Role> given;
@@ -110,11 +111,11 @@ std::vector<bool> apply_table(const Skeleton& skeleton, const RoleTable& table, 
 
 }  // namespace
 
-std::string_view role_name(Role role) { return kRoleNames[static_cast<std::size_t>(role)].second; }
+std::string_view role_name(Role role) { return role_names[static_cast<std::size_t>(role)].second; }
 
 std::optional<Role> role_from_name(std::string_view name) {
   const std::string letters = letters_of(name);
-  for (const auto& [role, known] : kRoleNames)
+  for (const auto& [role, known] : role_names)
     if (letters_of(known) == letters) return role;
   return std::nullopt;
 }
@@ -201,10 +202,9 @@ RoleTable parse_role_table(std::string_view text, const std::string& name) {
     if (joint.empty()) throw Error(here + "expected a joint's name before '=', found none");
     const std::optional<Role> known = role_from_name(role);
     if (!known) {
-      std::string all;
-      for (const auto& entry : kRoleNames)
-        all += (all.empty() ? "" : ", ") + std::string(entry.second);
-      throw Error(here + "expected a role (" + all + "), found '" + std::string(role) + "'");
+      const auto name_of = [](const auto& entry) { return entry.second; };
+      throw Error(here + "expected a role (" + joined_names(role_names, name_of) + "), found '" +
+                  std::string(role) + "'");
     }
     if (!table.emplace(joint, *known).second)
       throw Error(here + "expected each joint once, found '" + joint + "' again");

@@ -1,5 +1,5 @@
-// Joint roles: which joint is the hips, the left shank, the head; found from usual names, with a
-// table the user can override.
+// Joint roles: which joint is the hips, the left shank, the head. They are found from usual names;
+// a table of the user's overrides them.
 #pragma once
 
 #include <array>
@@ -61,7 +61,7 @@ struct JointRoles {
     return hips >= 0 && left.thigh >= 0 && left.shank >= 0 && left.foot >= 0 && right.thigh >= 0 &&
            right.shank >= 0 && right.foot >= 0;
   }
-  // The hips and all joints in a leg, in the skeleton's order: what is synthesised by default.
+  // The hips and all joints in a leg, in the skeleton's order: the joints synthesised by default.
   std::vector<int> hips_and_legs() const;
 };
 
@@ -73,8 +73,8 @@ double leg_length(const Skeleton& skeleton, const JointRoles& roles);
 using RoleTable = std::map<std::string, Role>;
 
 // Finds roles from names (Bandai-Namco, CMU, Mixamo, Xsens, Perception Neuron, VRM/Unity and
-// others); the hips are the joint both thighs descend from when no name says so. A role that the
-// table gives to some joint is not given to others by their names.
+// others). Without a joint named as hips, the hips are the joint from which both thighs descend. A
+// role that the table gives to a joint is not given to others by their names.
 JointRoles find_roles(const Skeleton& skeleton, const RoleTable& table = {});
 
 // Names of the table that no joint of the skeleton has: misspelt, or meant for another rig.

@@ -1,10 +1,10 @@
-// Observations: what a recogniser sees of a frame, and what a synthesiser is taught
-// (docs/design.md, Observe).
+// Observations: the vectors x of inputs, which a recogniser takes, and y of outputs, which a
+// synthesiser learns (docs/design.md).
 //
-// Input observation x: the values that move, then their differences to some frames back; causal, so
-// that learning sees what playing will see. Output observation y: the values that move with centred
-// first and second differences. Both are scaled by a mean and a deviation per dimension. One code
-// for learning (double) and playing (float).
+// x holds the values that move and their differences to some earlier frames; it is causal, so that
+// learning and playing see the same. y holds the values that move and their centred first and
+// second differences. Both are scaled by a mean and a deviation per dimension. Learning (double)
+// and playing (float) share this code.
 #pragma once
 
 #include <Eigen/Core>
@@ -22,8 +22,8 @@ struct InputLayout {
 
   int statics() const { return static_cast<int>(modelled.size()); }
   int size() const { return statics() * (1 + static_cast<int>(lags.size())); }
-  // How many leading entries of x are real when `past` frames came before this one: the statics and
-  // the differences whose frame back exists.
+  // Number of leading entries of x that are known when `past` frames came before this one: the
+  // statics, and the differences to frames that exist.
   int known(int past) const {
     const auto reached = std::upper_bound(lags.begin(), lags.end(), past) - lags.begin();
     return statics() * (1 + static_cast<int>(reached));
@@ -61,7 +61,8 @@ class InputObserver {
     scaled_.setZero();
   }
 
-  // Takes a frame of layout.values values. Afterwards `scaled`, `raw` and `known` speak of it.
+  // Takes a frame of layout.values values; `scaled`, `raw` and `known` are then those of this
+  // frame.
   void advance(std::span<const Scalar> values) noexcept {
     newest_ = (newest_ + 1) % static_cast<int>(history_.cols());
     for (int i = 0; i < layout_.statics(); ++i)
@@ -81,7 +82,7 @@ class InputObserver {
 
   const Vector& scaled() const noexcept { return scaled_; }
   const Vector& raw() const noexcept { return raw_; }
-  int known() const noexcept { return known_; }  // leading entries whose history is real
+  int known() const noexcept { return known_; }  // leading entries that are known
   const InputLayout& layout() const noexcept { return layout_; }
 
   void reset() noexcept { past_ = 0, known_ = 0; }

@@ -1,7 +1,7 @@
 // Resampling: a clip at another frame rate.
 //
-// Rotations by SLERP (Shoemake 1985), translations linearly. The first frame stays at its instant
-// and the duration is kept up to what does not fill a whole frame.
+// Rotations are interpolated by SLERP (Shoemake 1985), translations linearly. The first frame keeps
+// its time; the clip gets shorter by less than one new frame.
 #pragma once
 
 #include "gait/motion/clip.h"

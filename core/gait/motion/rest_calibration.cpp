@@ -39,7 +39,8 @@ Eigen::Quaterniond turn_of(const std::vector<BonePair>& bones) {
   Eigen::Matrix3d sum = Eigen::Matrix3d::Zero();
   for (const BonePair& bone : bones) sum += bone.from * bone.to.transpose();
   const Eigen::JacobiSVD<Eigen::Matrix3d> svd(sum, Eigen::ComputeFullU | Eigen::ComputeFullV);
-  // Bones in one plane or line leave a mirror image possible; a rotation is wanted.
+  // For bones in one plane or line the best orthogonal matrix may be a reflection: make it a
+  // rotation.
   Eigen::Matrix3d sign = Eigen::Matrix3d::Identity();
   sign(2, 2) = (svd.matrixU() * svd.matrixV().transpose()).determinant() < 0 ? -1 : 1;
   return Eigen::Quaterniond(Eigen::Matrix3d(svd.matrixU() * sign * svd.matrixV().transpose()));

@@ -1,9 +1,10 @@
-// Sender calibration: what a live sender's rig says, as turns since the T-pose, wherever its joints
-// lie at rest and whichever way it faces.
+// Sender calibration: conversion of a live sender's rotations to turns since the T-pose, for any
+// rest pose of its rig and any direction that it faces.
 //
-// At one moment the performer stands in a calibration pose; from then on only what has changed in
-// the world counts: D = F^-1 (W W0^-1) F S, with W0 the sender's rotations at that moment, F the
-// way it faced, and S the turns from the T-pose to the calibration pose. Nothing allocates.
+// At one moment the performer stands in a calibration pose. From then on the turn of a bone is
+// D = F^-1 (W W0^-1) F S, with W its rotation in the world, W0 that rotation at the moment of
+// calibration, F the direction the performer faced then, and S the turn from the T-pose to the
+// calibration pose. Nothing allocates.
 #pragma once
 
 #include "gait/motion/humanoid.h"
@@ -12,20 +13,20 @@ namespace gait {
 
 class SenderCalibration {
  public:
-  // Without calibration the sender is taken at its word: a rig whose rest is the T-pose with every
-  // joint along the world's axes, as the VMC protocol's usual avatars are.
+  // Without calibration, rotations count as turns: this fits a rig whose rest pose is the T-pose
+  // with every joint along the world's axes, as the usual avatars of the VMC protocol have it.
   void reset() noexcept { *this = {}; }
 
-  // `sender`: rotations in the world of its own joints, right-handed, as turns; places where they
-  // are known. `standing`: turns of that calibration pose (HumanoidBody::calibration). False, with
-  // nothing changed, when the hips' rotation is not known.
+  // `sender`: rotations of the sender's joints in the world, right-handed, in `turns`, and places
+  // where known. `standing`: turns of the calibration pose (HumanoidBody::calibration). Returns
+  // false and changes nothing when the hips' rotation is not known.
   bool set(const HumanoidPose& sender, const HumanoidPose& standing) noexcept;
   bool is_set() const noexcept { return set_; }
 
-  // In place: from the sender's rotations to turns of the body. `yaw` (radians about the vertical):
-  // without calibration the body is turned by it; with one it is added to the way the sender faced,
-  // for rigs that tell no places and whose hips lie turned. Bones that were not seen at calibration
-  // are not turned.
+  // Converts the sender's rotations to turns of the body, in place. `yaw` (radians about the
+  // vertical): without calibration the body is rotated by it; with calibration it is added to the
+  // direction that the sender faced, for rigs without places whose hips are rotated at rest. Bones
+  // that were not known at calibration get no turn.
   void apply(HumanoidPose& pose, double yaw) const noexcept;
 
  private:
@@ -35,8 +36,8 @@ class SenderCalibration {
   Eigen::Quaterniond facing_ = Eigen::Quaterniond::Identity();
 };
 
-// Which way a body faces (radians about the vertical, 0 along +Z): across its thighs or upper arms
-// where their places are known, else by the hips' rotation alone.
+// Direction that a body faces (radians about the vertical, 0 along +Z): from the places of its
+// thighs or upper arms where these are known, else from the hips' rotation.
 double facing_of(const HumanoidPose& pose) noexcept;
 
 }  // namespace gait

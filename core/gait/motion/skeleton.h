@@ -28,6 +28,15 @@ struct Skeleton {
     while (joint >= 0 && joint != ancestor) joint = joints[static_cast<std::size_t>(joint)].parent;
     return joint >= 0 && joint == ancestor;
   }
+
+  // Place of a joint at rest (all rotations identity) from an ancestor, by default from the origin:
+  // the sum of the offsets on the way.
+  Eigen::Vector3d place_at_rest(int joint, int ancestor = -1) const {
+    Eigen::Vector3d place = Eigen::Vector3d::Zero();
+    for (; joint >= 0 && joint != ancestor; joint = joints[static_cast<std::size_t>(joint)].parent)
+      place += joints[static_cast<std::size_t>(joint)].offset;
+    return place;
+  }
 };
 
 }  // namespace gait

@@ -49,7 +49,7 @@ void turns_from_places(HumanoidPose& pose) noexcept {
   const Vector3d up(0, 1, 0), down(0, -1, 0), left(1, 0, 0), right(-1, 0, 0);
   Vector3d across, along;
   Quaterniond turn;
-  // What is highest of the trunk and seen.
+  // The highest joint of the trunk whose place is known.
   Vector3d top = Vector3d::Zero();
   bool has_top = false;
   for (const Bone bone : {Bone::neck, Bone::upper_chest, Bone::chest, Bone::spine, Bone::head})
@@ -72,7 +72,7 @@ void turns_from_places(HumanoidPose& pose) noexcept {
   }
   const Bone trunk = pose.turned[index_of(Bone::spine)] ? Bone::spine : Bone::hips;
   swing(pose, Bone::neck, Bone::head, trunk, up);
-  // The skull goes with the neck: nothing above it is seen.
+  // The head turns with the neck: no place above it is known.
   if (pose.turned[index_of(Bone::neck)]) set(pose, Bone::head, pose.turns[index_of(Bone::neck)]);
   swing(pose, Bone::left_upper_arm, Bone::left_lower_arm, trunk, left);
   swing(pose, Bone::left_lower_arm, Bone::left_hand, Bone::left_upper_arm, left);

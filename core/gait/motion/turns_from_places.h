@@ -1,14 +1,14 @@
-// Turns from places: a body's pose where only the places of its joints are seen, as by a depth
-// camera. A limb is swung the shortest way from where its trunk or upper limb carries it; how it is
-// twisted about itself cannot be seen.
+// Turns from places: the pose of a body of which only the places of joints are known, as from a
+// depth camera. Each bone of a limb is swung the shortest way from the direction that its parent
+// gives it; the twist about its own axis is not observable.
 #pragma once
 
 #include "gait/motion/humanoid.h"
 
 namespace gait {
 
-// Fills `pose.turns` and `pose.turned` from `pose.places`, as far as these are known. Lengths do
-// not count, only directions. A bone whose places are missing is not turned. Right-handed, Y up.
+// Sets `pose.turns` and `pose.turned` from the known ones of `pose.places`. Only directions count,
+// not lengths. A bone whose places are missing gets no turn. Right-handed, Y up.
 void turns_from_places(HumanoidPose& pose) noexcept;
 
 }  // namespace gait

@@ -5,6 +5,7 @@
 #include <cstdio>
 
 #include "gait/error.h"
+#include "gait/names.h"
 #include "gait/offline/walk_recorder.h"
 #include "gait/play/cycles/style_walker.h"
 
@@ -19,7 +20,7 @@ std::string styles_that_walk(const Model& model) {
   std::string names;
   for (std::size_t i = 0; i < model.styles.size(); ++i)
     if (!model.style_space || model.style_space->styles[i].cycles > 0)
-      names += (names.empty() ? "" : ", ") + model.styles[i];
+      append_name(names, model.styles[i]);
   return names;
 }
 
@@ -125,12 +126,10 @@ SpeedWalk speed_walk(const PlayModel& played, const SpeedWalkPlan& plan) {
   SpeedWalker walker(played.speeds());
   if (!(plan.seconds > 0) || !std::isfinite(plan.from) || !std::isfinite(plan.to))
     throw Error("expected a plan of finite speeds and some seconds for the speed walker");
-  if (!plan.subject.empty() && walker.set_subject(plan.subject) == Taken::refused) {
-    std::string known;
-    for (const auto& subject : walker.subjects())
-      known += (known.empty() ? "" : ", ") + subject.subject;
+  if (!plan.subject.empty() && walker.set_subject(plan.subject) == ControlResult::refused) {
+    const auto name_of = [](const auto& subject) { return subject.subject; };
     throw Error("model " + model->name + ": no subject is called '" + plan.subject + "'; it has " +
-                known);
+                joined_names(walker.subjects(), name_of));
   }
   if (plan.leg_length > 0) walker.set_leg_length(static_cast<float>(plan.leg_length));
   walker.set_law(plan.law);

@@ -46,7 +46,7 @@ bool BodySender::send(std::span<const float> root, std::span<const float> pose, 
       const Eigen::Vector3d vector(pose[3 * joint], pose[3 * joint + 1], pose[3 * joint + 2]);
       local_[joint] = model_->body->references[joint] * exponential_map<double>(vector);
     }
-    // What is above the hips stays where it is.
+    // Joints above the hips keep their pose.
     for (int above = skeleton.joints[hips_].parent; above >= 0;
          above = skeleton.joints[above].parent) {
       local_[above].setIdentity();

@@ -1,5 +1,5 @@
-// Body sender: poses of a model's body (`root` and `pose` messages), in the form a receiver takes.
-// Nothing allocates after construction.
+// Body sender: sends poses of a model's body (`root` and `pose` messages) in the form that a
+// receiver takes. Nothing allocates after construction.
 #pragma once
 
 #include <memory>
@@ -20,8 +20,8 @@ class BodySender {
   // Throws Error when the model has no body, or no legs where the form is not the project's own.
   BodySender(std::shared_ptr<const Model> model, MocapForm form);
 
-  // `root`: x y z heading; `pose`: three values per joint. Sends to all; false when the system did
-  // not take a packet, or the sizes are others.
+  // `root`: x y z heading; `pose`: three values per joint. Sends to all; returns false when
+  // the system refused a packet or the sizes do not fit the model.
   bool send(std::span<const float> root, std::span<const float> pose, double time,
             std::span<const std::shared_ptr<const Destination>> to) noexcept;
   MocapForm form() const noexcept { return form_; }

@@ -30,7 +30,7 @@ Destination::Destination(const std::string& host, int port)
   if (socket_ < 0) throw Error(name_ + ": cannot open a socket: " + std::strerror(errno));
   fcntl(socket_, F_SETFL, O_NONBLOCK);
   fcntl(socket_, F_SETFD, FD_CLOEXEC);
-  const int yes = 1;  // to a whole stage at once: x.x.x.255
+  const int yes = 1;  // allows broadcast: x.x.x.255
   setsockopt(socket_, SOL_SOCKET, SO_BROADCAST, &yes, sizeof yes);
 }
 

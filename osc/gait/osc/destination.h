@@ -1,4 +1,4 @@
-// Destination: a program on some machine that takes datagrams.
+// Destination: a UDP socket to a program on some machine.
 #pragma once
 
 #include <netinet/in.h>
@@ -18,7 +18,7 @@ class Destination {
   Destination(const Destination&) = delete;
   Destination& operator=(const Destination&) = delete;
 
-  // Never waits. False when the system did not take it.
+  // Sends one datagram. Never blocks. Returns false when the system refused it.
   bool send(std::span<const std::byte> bytes) const noexcept;
   const std::string& name() const noexcept { return name_; }  // "host:port"
 

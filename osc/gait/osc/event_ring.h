@@ -1,5 +1,5 @@
-// Event ring: from one writing thread to one reading thread, without locks, in order, bounded: what
-// does not fit is refused.
+// Event ring: a lock-free queue of fixed size from one writing thread to one reading thread. When
+// it is full it refuses new entries.
 #pragma once
 
 #include <atomic>
@@ -15,7 +15,7 @@ class EventRing {
   // Holds at least `capacity` entries.
   explicit EventRing(std::size_t capacity) : entries_(std::bit_ceil(capacity)) {}
 
-  // The writing thread. False: full, nothing was kept.
+  // For the writing thread. Returns false, and drops the entry, when the ring is full.
   bool push(const T& entry) noexcept {
     const std::size_t at = written_.load(std::memory_order_relaxed);
     if (at - read_.load(std::memory_order_acquire) >= entries_.size()) return false;
@@ -23,7 +23,7 @@ class EventRing {
     written_.store(at + 1, std::memory_order_release);
     return true;
   }
-  // The reading thread. False: empty.
+  // For the reading thread. Returns false when the ring is empty.
   bool pop(T& entry) noexcept {
     const std::size_t at = read_.load(std::memory_order_relaxed);
     if (at == written_.load(std::memory_order_acquire)) return false;

@@ -45,7 +45,7 @@ bool CapturedFrame::empty() const noexcept {
 FrameGatherer::FrameGatherer(int performers) : slots_(static_cast<std::size_t>(performers)) {}
 
 int FrameGatherer::slot_of(const MocapEvent& event) noexcept {
-  int free = -1;  // nobody's, or else that of who is silent for longest
+  int free = -1;  // an unused slot, else the one that has been silent for longest
   for (int i = 0; i < performers(); ++i) {
     const Slot& slot = slots_[i];
     if (slot.used && slot.frame.sender == event.sender && slot.frame.stream == event.stream &&

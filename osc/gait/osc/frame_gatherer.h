@@ -1,9 +1,9 @@
-// Frame gatherer: events become frames, performer by performer.
+// Frame gatherer: gathers the events of each performer into frames.
 //
-// A frame ends where its sender says so, and where a bone is told again; where neither comes for
-// 10 ms it has ended too. Performers are told apart by address and, within a sender, by skeleton or
-// user; each keeps its number until it has been silent for a second and another needs the place.
-// Nothing allocates after construction.
+// A frame ends with the sender's message that ends it, with the second value of a bone that it
+// already has, or 10 ms after its first event. Performers are distinguished by the sender's address
+// and, within a sender, by skeleton or user. A performer keeps its number until it has been silent
+// for a second and another performer needs the slot. Nothing allocates after construction.
 #pragma once
 
 #include <array>
@@ -15,10 +15,10 @@
 
 namespace gait::osc {
 
-inline constexpr int most_joints = 256;   // of a rig told by its own names
+inline constexpr int most_joints = 256;   // of a rig with its own names
 inline constexpr int most_values = 1024;  // of a frame of values
 
-// A joint told by its own name.
+// A joint identified by its own name.
 struct NamedJoint {
   std::array<char, MocapEvent::name_size> name{}, parent{};
   int above = -1;  // the parent's index among the named joints, -1: none or not known
@@ -30,7 +30,8 @@ struct NamedJoint {
   std::array<float, 3> place{};
 };
 
-// What one frame told. Rotations, places and numbers of what was not told are those of before.
+// One frame of one performer, in the sender's axes and metres. Rotations, places and numbers that
+// the frame did not contain keep the values of the frame before.
 struct CapturedFrame {
   MocapForm form = MocapForm::none;
   std::uint64_t sender = 0;
@@ -50,7 +51,7 @@ struct CapturedFrame {
   std::vector<NamedJoint> named;
 
   CapturedFrame();
-  void begin(double at) noexcept;  // nothing told yet
+  void begin(double at) noexcept;  // clears the marks of what the frame contains
   bool empty() const noexcept;
 };
 
@@ -62,18 +63,18 @@ class FrameSink {
 
 class FrameGatherer {
  public:
-  static constexpr double patience = 0.010;  // seconds for a frame that does not end
-  static constexpr double silence = 1.0;     // seconds after which a place may be given away
+  static constexpr double patience = 0.010;  // seconds after which an open frame ends
+  static constexpr double silence = 1.0;     // seconds after which a slot may be reused
 
   explicit FrameGatherer(int performers);
 
   void take(const MocapEvent& event, FrameSink& sink) noexcept;
-  // Ends frames that have waited too long. `now`: on the clock of arrivals.
+  // Ends frames that have been open for too long. `now`: on the clock of arrivals.
   void end_old(double now, FrameSink& sink) noexcept;
 
   int performers() const noexcept { return static_cast<int>(slots_.size()); }
   const CapturedFrame& last(int performer) const noexcept { return slots_[performer].frame; }
-  // Events of performers for whom there was no place, and of joints beyond the most.
+  // Number of events refused: of performers without a slot, and of joints beyond most_joints.
   std::uint64_t refused() const noexcept { return refused_; }
 
  private:

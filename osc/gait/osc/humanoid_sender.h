@@ -1,5 +1,5 @@
-// Humanoid sender: a body, frame by frame, in a form that other programs take: VMC, NatNet's, or
-// NeuronOSC's. Nothing allocates after construction.
+// Humanoid sender: packs a humanoid's frames in the forms of other programs: VMC, NatNet or
+// NeuronOSC. Nothing allocates after construction.
 #pragma once
 
 #include <vector>
@@ -12,7 +12,7 @@ namespace gait::osc {
 
 class HumanoidSender {
  public:
-  // `bones`: those that are told, by index, parents first. Throws Error for other forms.
+  // `bones`: indices of the bones to send, parents first. Throws Error for other forms.
   HumanoidSender(MocapForm form, const std::vector<int>& bones);
 
   // Packs a frame: turns since the T-pose, and places of the hips (and of the rest, where known).

@@ -24,7 +24,7 @@ double JitterBuffer::number_after(double time) const noexcept {
   if (arrivals_ < arrivals_to_know || line_.period <= 0) return next;
   const double late = time - line_.at(next);
   if (std::abs(late) < std::max(hole * line_.period, scattered * line_.scatter)) return next;
-  // Whoever was taken for lost and was only late gives his number back.
+  // A frame that was counted as lost but was only late gives its number back.
   return next + std::max(-1.0, std::round(late / line_.period));
 }
 
@@ -51,7 +51,7 @@ void JitterBuffer::push(double time, std::span<const float> values) noexcept {
   const double gap = arrivals_ == 0 ? 0 : time - times_[latest_];
   if (gap > longest_gap || gap < 0) arrivals_ = 0;
   double number = arrivals_ == 0 ? 0 : number_after(time);
-  // Hole after hole: it is the line that is wrong. It was learnt from a burst, or the rate changed.
+  // Many holes in a row: the line is wrong, fitted to a burst, or the sender's rate changed.
   holes_ = arrivals_ > 0 && number > numbers_[latest_] + 1 ? holes_ + 1 : 0;
   if (holes_ == most_holes) {
     number = 0;

@@ -1,5 +1,5 @@
-// Jitter buffer: frames that came unevenly leave evenly, later by a chosen time. Without delay each
-// leaves at once. Bounded: when it is full the oldest goes. Nothing allocates after construction.
+// Jitter buffer: delays frames that arrive unevenly such that they leave evenly. Without delay each
+// leaves at once. When it is full it drops the oldest frame. Nothing allocates after construction.
 #pragma once
 
 #include <span>
@@ -11,7 +11,7 @@ class JitterBuffer {
  public:
   static constexpr int most_frames = 256;  // a second at 240 a second
 
-  // `values` in a frame.
+  // `values`: number of values in a frame.
   explicit JitterBuffer(int values);
 
   void set_delay(double seconds) noexcept { delay_ = seconds; }
@@ -23,7 +23,7 @@ class JitterBuffer {
   double arrival() const noexcept { return arrival_; }
   void reset() noexcept { count_ = 0, arrivals_ = 0; }  // of frames and of the sender's clock
   int waiting() const noexcept { return count_; }
-  // Frames that went because it was full, since the beginning.
+  // Number of frames dropped because the buffer was full, since construction.
   int lost() const noexcept { return lost_; }
 
  private:
@@ -33,8 +33,8 @@ class JitterBuffer {
   double due_[most_frames] = {}, arrived_[most_frames] = {}, arrival_ = 0;
   int first_ = 0, count_ = 0, lost_ = 0;
 
-  // The sender's clock as it is seen through jitter: a line through the latest arrivals over their
-  // numbers, where frames that were lost have numbers too.
+  // Estimate of the sender's clock: a regression line of the latest arrivals over their frame
+  // numbers; lost frames have numbers too.
   struct Line {
     double number = 0, time = 0, period = 0, scatter = 0;  // a point on it, its slope, seconds
     double at(double n) const noexcept { return time + period * (n - number); }

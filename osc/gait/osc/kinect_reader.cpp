@@ -3,8 +3,7 @@
 //   centimetres, confidence, time.
 //   Sensebloom's: /joint s i f f f: name, user, place between 0 and 1 (depth to 7.8); the program
 //   reckons x = (1280 - X) / 2560, y = (960 - Y) / 1920, z = Z / 1280 of millimetres.
-// Wrists lie on the way to the hands, which are always told. Which way X and Y go is left to who
-// makes a pose of them.
+// Wrists are ignored, as hands are always sent. SenderPose finds out the directions of X and Y.
 #include "gait/motion/humanoid.h"
 #include "gait/osc/mocap_reader.h"
 

@@ -10,14 +10,8 @@ namespace gait::osc {
 
 namespace {
 
-constexpr double never = -1e9;  // seconds
-
-Eigen::Vector3d rest_place(const Skeleton& skeleton, int joint, int above) {
-  Eigen::Vector3d place = Eigen::Vector3d::Zero();
-  for (; joint >= 0 && joint != above; joint = skeleton.joints[joint].parent)
-    place += skeleton.joints[joint].offset;
-  return place;
-}
+constexpr double never = -1e9;            // seconds
+constexpr int most_heading_frames = 512;  // a cycle of 2 s at 240 frames per second
 
 int joints_of(const Model& model) { return model.body ? model.body->skeleton.size() : 0; }
 
@@ -36,7 +30,8 @@ HumanoidBody humanoid_of(const Body& body) {
 LiveBody::LiveBody(std::shared_ptr<const Model> model)
     : model_(std::move(model)),
       filter_(joints_of(*model_)),
-      heading_(model_->body ? model_->body->heading_window : 1),
+      heading_(CausalHeading<double>::over_seconds(model_->body ? model_->body->heading_window : 1,
+                                                   most_heading_frames)),
       input_of_(model_->inputs.size(), -1),
       inputs_(static_cast<std::size_t>(values_of(model_->inputs)), 0) {
   if (!model_->body) return;
@@ -45,8 +40,8 @@ LiveBody::LiveBody(std::shared_ptr<const Model> model)
   if (roles.has_legs()) {
     humanoid_.emplace(humanoid_of(body));
     hips_ = roles.hips;
-    right_to_left_thigh_ = rest_place(body.skeleton, roles.left.thigh, roles.hips) -
-                           rest_place(body.skeleton, roles.right.thigh, roles.hips);
+    right_to_left_thigh_ = body.skeleton.place_at_rest(roles.left.thigh, roles.hips) -
+                           body.skeleton.place_at_rest(roles.right.thigh, roles.hips);
     for (int joint = roles.left.foot; joint != roles.hips;
          joint = body.skeleton.joints[joint].parent)
       rest_height_ += body.skeleton.joints[joint].offset.norm();
@@ -102,7 +97,7 @@ bool LiveBody::take_humanoid(const CapturedFrame& captured) noexcept {
   if (calibrate_) sender_.judge_axes_again();
   if (!sender_.take(captured)) return false;
   if (calibrate_) {
-    // Held until the hips are known: a frame may have come in pieces.
+    // Waits until the hips are known: a frame may arrive in pieces.
     if (calibration_.set(sender_.world(), humanoid_->calibration(*calibrate_))) {
       standing_ = Standing{sender_.world(), *calibrate_};
       calibrate_.reset();
@@ -119,7 +114,7 @@ bool LiveBody::take_humanoid(const CapturedFrame& captured) noexcept {
     double seen = never;
     if (bone >= 0 && humanoid_->driven(body_pose_, static_cast<int>(joint))) {
       seen = sender_.seen(bone);
-      // A spine goes by all of its bones.
+      // A spine follows all of its bones.
       if (bone == index_of(Bone::spine))
         for (int other = bone; other <= index_of(Bone::upper_chest); ++other)
           if (body_pose_.turned[other]) seen = std::max(seen, sender_.seen(other));
@@ -164,7 +159,7 @@ bool LiveBody::take_named(const CapturedFrame& captured) noexcept {
                       exponential_map<double>({named.vector[0], named.vector[1], named.vector[2]});
       continue;
     }
-    // Over joints of the sender's rig that the model does not have, up to the model's parent.
+    // Includes joints of the sender's rig that the model lacks, up to the parent in the model.
     const int parent = skeleton.joints[joint].parent;
     const int end = static_cast<int>(joint) == hips_ || parent < 0 ? -1 : named_of_[parent];
     Eigen::Quaterniond turned = rotation(named);
@@ -215,7 +210,7 @@ bool LiveBody::take_values(const CapturedFrame& captured) noexcept {
                         .cast<double>();
     seen_[joint] = captured.time;
   }
-  filter_.apply(captured.time, local_);
+  filter(captured.time);
   for (std::size_t joint = 0; joint < local_.size(); ++joint)
     pose_[joint] = local_[joint].cast<float>();
   pose_vector<float>(pose_, references_, values_);
@@ -225,10 +220,15 @@ bool LiveBody::take_values(const CapturedFrame& captured) noexcept {
   return true;
 }
 
+void LiveBody::filter(double time) noexcept {
+  filter_.apply(local_, time - filtered_at_);
+  filtered_at_ = time;
+}
+
 void LiveBody::finish(const CapturedFrame& captured) noexcept {
-  filter_.apply(captured.time, local_);
+  filter(captured.time);
   double heading = 0;
-  if (hips_ >= 0) heading = heading_.advance(captured.time, local_[hips_] * right_to_left_thigh_);
+  if (hips_ >= 0) heading = heading_.advance(local_[hips_] * right_to_left_thigh_, captured.time);
   for (std::size_t joint = 0; joint < local_.size(); ++joint)
     pose_[joint] = static_cast<int>(joint) == hips_
                        ? (about_vertical(-heading) * local_[joint]).cast<float>()

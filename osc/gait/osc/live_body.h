@@ -1,9 +1,9 @@
-// Live body: one performer on a model's body, frame by frame as they come.
+// Live body: maps each frame of one performer to a model's body.
 //
-// Humanoids of any rig are brought to the model's by turns and a calibration; named joints and
-// values (the project's own form) are taken at their word. What stops coming is held, and missing
-// after a while. Joints whose sender never told them are missing from the start. Nothing allocates
-// after construction.
+// Humanoids of any rig are converted by turns and a calibration; named joints and values (the
+// project's own form) are used as they are. A joint that stops arriving is held, and counts as
+// missing after a while. A joint that has never arrived is missing from the start. Nothing
+// allocates after construction.
 #pragma once
 
 #include <Eigen/Geometry>
@@ -14,10 +14,10 @@
 #include <vector>
 
 #include "gait/model/model.h"
+#include "gait/motion/heading.h"
 #include "gait/motion/humanoid_body.h"
+#include "gait/motion/one_euro_filter.h"
 #include "gait/motion/sender_calibration.h"
-#include "gait/osc/recent_heading.h"
-#include "gait/osc/rotation_filter.h"
 #include "gait/osc/sender_pose.h"
 
 namespace gait::osc {
@@ -26,7 +26,7 @@ struct LiveFrame {
   double time = 0;                // of arrival, seconds
   std::span<const float> inputs;  // values of the `in` message
   std::span<const float> pose;    // of the whole body; empty for a model of plain streams
-  bool posed = false;             // whether the whole body was told, not its inputs alone
+  bool posed = false;             // whether `pose` is of this frame, not `inputs` alone
   Eigen::Vector3f hips = Eigen::Vector3f::Zero();
   float heading = 0;
 };
@@ -35,31 +35,31 @@ class LiveBody {
  public:
   explicit LiveBody(std::shared_ptr<const Model> model);
 
-  // The next frame that comes is the calibration pose, if it comes by then. Own form: nothing to
-  // calibrate.
+  // Takes the next frame as the calibration pose, if it arrives until the time `until`. No effect
+  // in the project's own form.
   void calibrate(CalibrationPose pose, double until = 1e300) noexcept {
     calibrate_ = pose;
     calibrate_until_ = until;
   }
   bool calibrated() const noexcept { return calibration_.is_set(); }
   void set_yaw(double radians) noexcept { yaw_ = radians; }
-  // Seconds that what stops coming is held.
+  // Seconds for which an input that stops arriving is held.
   void set_hold(double seconds) noexcept { hold_ = seconds; }
   // Hz at rest of the 1-euro filter; 0: off.
   void set_smoothing(double hertz) noexcept { filter_.set_cutoff(hertz); }
-  // The same rig by another way (port, program): its calibration holds, its pose is told anew.
+  // For the same rig through another port or program: keeps the calibration, forgets the pose.
   void forget_pose() noexcept;
-  // Another performer: nothing of the last one holds.
+  // For another performer: forgets everything but the settings.
   void reset() noexcept;
-  // The same performer as on another model's body, calibrated as he was there.
+  // Takes over the performer and the calibration from a body of another model.
   void take_over(const LiveBody& other) noexcept;
 
-  // False when the frame tells nothing of this model (values of another count).
+  // Returns false when the frame holds nothing for this model (values of another count).
   bool take(const CapturedFrame& captured) noexcept;
   const LiveFrame& frame() const noexcept { return frame_; }
 
-  // Whether an input is told, or held no longer than it may, as of the last frame. `input`: index
-  // into the model's inputs.
+  // Whether an input arrived with the last frame, or is still held. `input`: index into the model's
+  // inputs.
   bool there(int input) const noexcept;
 
  private:
@@ -68,6 +68,7 @@ class LiveBody {
   bool take_values(const CapturedFrame& captured) noexcept;
   void find_joints(const CapturedFrame& captured) noexcept;
   void finish(const CapturedFrame& captured) noexcept;
+  void filter(double time) noexcept;
 
   std::shared_ptr<const Model> model_;
   std::optional<HumanoidBody> humanoid_;  // none without a body that has legs
@@ -86,8 +87,9 @@ class LiveBody {
   };
   std::optional<Standing> standing_;  // as calibrated last
   double yaw_ = 0, hold_ = 0.5;
-  RotationFilter filter_;
-  RecentHeading heading_;
+  OneEuroFilter<double> filter_;
+  double filtered_at_ = 0;  // time of the last filtered frame
+  CausalHeading<double> heading_;
 
   HumanoidPose body_pose_;
   std::vector<Eigen::Quaterniond> local_;  // hips in the world
@@ -100,7 +102,7 @@ class LiveBody {
   LiveFrame frame_;
 };
 
-// A humanoid driven on a model's body: its usual pose is the model's references.
+// The humanoid of a model's body; its usual pose is the model's references.
 HumanoidBody humanoid_of(const Body& body);
 
 }  // namespace gait::osc

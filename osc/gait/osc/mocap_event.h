@@ -1,5 +1,5 @@
-// Mocap event: one thing that a sender of motion said, of a fixed size, so that it can go from a
-// receiving thread to a playing one without memory being made.
+// Mocap event: one item of a message with motion. It has a fixed size, so that it passes from the
+// receiving thread to the playing one without allocation.
 #pragma once
 
 #include <array>
@@ -17,7 +17,7 @@ std::optional<MocapForm> form_named(std::string_view name);
 
 enum class MocapKind : std::uint8_t {
   bone,    // a humanoid's bone: place, rotation or both
-  root,    // what carries the body: place and rotation (own form: place and heading)
+  root,    // the root of the body: place and rotation (own form: place and heading)
   joint,   // a joint by its own name (own form)
   rig,     // a joint's parent and offset (own form)
   values,  // some values of a frame (own form)
@@ -46,7 +46,7 @@ struct MocapEvent {
 };
 static_assert(std::is_trivially_copyable_v<MocapEvent>);
 
-// Who takes events. Called on the thread that reads.
+// Consumer of events; called on the reading thread.
 class EventSink {
  public:
   virtual ~EventSink() = default;

@@ -1,6 +1,6 @@
-// Mocap reader: tells the forms in which motion is sent apart, and turns each message into events.
-// What it does not know it passes over; a message with too few arguments, of wrong types or with
-// numbers that are not finite is faulty as a whole.
+// Mocap reader: recognises the form of a message with motion and converts it to events. Unknown
+// messages are skipped; a message with too few arguments, with wrong types or with numbers that are
+// not finite is faulty as a whole.
 #pragma once
 
 #include <array>
@@ -13,17 +13,18 @@ namespace gait::osc {
 
 enum class Reading { taken, unknown, faulty };
 
-// What of a message all events made from it share.
+// Data that all events of a message share.
 struct Arrival {
   double time = 0;           // seconds
   std::uint64_t sender = 0;  // address and port
 };
 
-// Bones by the names that a NatNet bridge told for its numbers. Bounded: the oldest are forgotten.
+// Bones by number, from the names that a NatNet bridge sent for its numbers. The table has a fixed
+// size and replaces its oldest entries.
 class BoneNumbers {
  public:
   void set(std::uint32_t skeleton, int number, int bone) noexcept;
-  // -1: not a bone of ours. Without a name, Motive's usual numbering.
+  // Returns -1 for an unknown bone. Uses Motive's usual numbering when no name was sent.
   int bone(std::uint32_t skeleton, int number) const noexcept;
 
  private:
@@ -37,7 +38,7 @@ class BoneNumbers {
 
 class MocapReader {
  public:
-  // `form`: read only this; none: every one that is recognised.
+  // `form`: the only form to read; none: every known one.
   explicit MocapReader(MocapForm form = MocapForm::none) : form_(form) {}
 
   Reading read(const OscMessage& message, const Arrival& arrival, EventSink& sink);
@@ -47,7 +48,7 @@ class MocapReader {
   BoneNumbers bone_numbers_;
 };
 
-// One file each. They tell by the address whether a message is theirs.
+// Readers of the forms, one file each. They recognise their messages by the address.
 Reading read_vmc(const OscMessage& message, const Arrival& arrival, EventSink& sink);
 Reading read_natnet(const OscMessage& message, const Arrival& arrival, BoneNumbers& numbers,
                     EventSink& sink);
@@ -55,9 +56,10 @@ Reading read_neuron(const OscMessage& message, const Arrival& arrival, EventSink
 Reading read_kinect(const OscMessage& message, const Arrival& arrival, EventSink& sink);
 Reading read_gait(const OscMessage& message, const Arrival& arrival, EventSink& sink);
 
-// An event with what all have.
+// An event with the data that all events have.
 MocapEvent event_of(MocapKind kind, MocapForm form, const Arrival& arrival);
-// Four numbers from `first` on as a rotation; false when they are missing or near zero.
+// Reads four numbers from `first` on as a rotation; returns false when they are missing or near
+// zero.
 bool rotation_in(const OscMessage& message, int first, MocapEvent& event);
 
 }  // namespace gait::osc

@@ -10,7 +10,7 @@ namespace gait::osc {
 
 namespace {
 
-// Motive's Baseline skeleton, numbered from 1; for bridges that were not asked for names.
+// Motive's Baseline skeleton, numbered from 1; for bridges that have sent no names.
 constexpr std::array<Bone, 21> usual_numbers{Bone::hips,
                                              Bone::spine,
                                              Bone::chest,
@@ -33,7 +33,7 @@ constexpr std::array<Bone, 21> usual_numbers{Bone::hips,
                                              Bone::left_toes,
                                              Bone::right_toes};
 
-// Names of that skeleton which mean something else elsewhere.
+// Names of that skeleton with another meaning elsewhere.
 int motive_bone(std::string_view name) {
   if (const std::size_t owner = name.rfind('_'); owner != std::string_view::npos)
     name.remove_prefix(owner + 1);
@@ -135,7 +135,7 @@ Reading read_natnet(const OscMessage& message, const Arrival& arrival, BoneNumbe
     const auto number = whole_number_in<int>(parts.number);
     if (!number) return Reading::faulty;
     std::uint32_t skeleton = key_of(parts.skeleton);
-    // Skeletons are numbered or named; names told before came with the same word.
+    // Skeletons have numbers or names; the names of bones came with the same key.
     if (const auto as_number = whole_number_in<int>(parts.skeleton); as_number && *as_number >= 0)
       skeleton = static_cast<std::uint32_t>(*as_number);
     return bone(message, 0, parts.what, skeleton, *number, arrival, numbers, sink);

@@ -7,7 +7,7 @@ namespace gait::osc {
 
 namespace {
 
-constexpr float largest = 1e6F;  // metres or units; beyond, a sender talks nonsense
+constexpr float largest = 1e6F;  // metres or units; larger numbers are errors of the sender
 
 template <typename T>
 T read(const void* from) noexcept {  // arguments lie on four bytes, not on eight

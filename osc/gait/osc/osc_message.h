@@ -1,4 +1,4 @@
-// OSC message: address and arguments of one message as they came, checked when they are asked for.
+// OSC message: address and arguments of one message; arguments are checked when they are read.
 #pragma once
 
 #include <cstdint>
@@ -20,7 +20,7 @@ class OscMessage {
   // Of any numeric type (i h f d T F), finite.
   std::optional<double> number(int i) const noexcept;
   std::optional<std::string_view> text(int i) const noexcept;  // s or S
-  // A name or number that tells streams apart: itself, or a hash of the text.
+  // An identifier of a stream: the number itself, or the hash of a name.
   std::optional<std::uint32_t> key(int i) const noexcept;
 
   // `count` finite numbers from argument `first` on. False, with nothing written, where there are

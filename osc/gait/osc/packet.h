@@ -1,5 +1,5 @@
-// Packet: what one datagram holds, message by message. Bundles are opened at once, whatever time
-// they ask for: motion is of now.
+// Packet: reads the messages in one datagram. Time tags of bundles are ignored, because live motion
+// counts on arrival.
 #pragma once
 
 #include <cstddef>
@@ -11,10 +11,10 @@ namespace gait::osc {
 
 struct PacketContent {
   int messages = 0;  // given to `take`
-  int faulty = 0;    // pieces that are no message, sizes that lie, bundles nested too deep
+  int faulty = 0;    // parts that are no message, wrong sizes, bundles nested too deep
 };
 
-// Deepest nesting of bundles that is followed; nobody who sends motion nests at all.
+// Deepest nesting of bundles that is read; senders of motion do not nest at all.
 inline constexpr int deepest_bundle = 8;
 
 // Calls `take(context, message)` for each message in order. Bytes need not be OSC.

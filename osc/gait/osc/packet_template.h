@@ -1,5 +1,5 @@
-// Packet template: a bundle whose words never change and whose numbers do. liblo lays it out once;
-// after that a frame is a few bytes written into place and one datagram.
+// Packet template: a bundle with constant strings and variable numbers. liblo lays it out once; for
+// each frame only the numbers are written.
 #pragma once
 
 #include <cstddef>
@@ -15,7 +15,7 @@ class PacketTemplate {
   // and f) are set with set(). Throws Error when it does not fit a packet.
   void add(const std::string& path, const std::string& types,
            const std::vector<std::string>& strings = {});
-  // How many bytes it has so far, and would have with such a message.
+  // Size in bytes so far, and the bytes that such a message takes.
   std::size_t size() const noexcept { return bytes_.size(); }
   static std::size_t size_of(const std::string& path, const std::string& types,
                              const std::vector<std::string>& strings);
@@ -34,8 +34,8 @@ class PacketTemplate {
   std::vector<Place> places_;
 };
 
-// Several packets in a row, none beyond what passes a network whole; a message that does not fit
-// begins the next.
+// Several packets in a row, each small enough for one datagram; a message that does not fit begins
+// the next packet.
 class PacketSequence {
  public:
   static constexpr std::size_t most_bytes = 1400;  // within 1500, as the VMC protocol asks

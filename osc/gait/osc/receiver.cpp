@@ -21,7 +21,7 @@ namespace gait::osc {
 namespace {
 
 constexpr std::size_t largest_packet = 65536;
-constexpr int kernel_buffer = 1 << 21;  // bytes asked for, so that a busy moment loses nothing
+constexpr int kernel_buffer = 1 << 21;  // bytes, enough for a busy moment
 
 // liblo's own servers listen to every machine: this socket is bound to this one alone.
 int open_socket(const ReceiverSettings& settings) {
@@ -57,7 +57,7 @@ Receiver::Receiver(const ReceiverSettings& settings)
     throw Error("expected a port from 0 to 65535, got " + std::to_string(settings.port));
   socket_ = open_socket(settings);
   port_ = port_of(socket_);
-  // A program that Pd starts must not hold it open.
+  // Programs that Pd starts must not inherit the socket.
   if (pipe2(wake_, O_CLOEXEC) != 0) {
     close(socket_);
     throw Error(std::string("cannot open a pipe: ") + std::strerror(errno));
@@ -94,7 +94,7 @@ void Receiver::run() {
   }
 }
 
-// As much as is there, but never so long that the end of the thread is not seen.
+// Receives all waiting packets, but returns in time to see that the thread should end.
 void Receiver::receive_all(std::span<std::byte> buffer) {
   for (int i = 0; i < 256; ++i) {
     sockaddr_in from{};

@@ -1,5 +1,5 @@
-// Receiver: a UDP port on which motion is listened to, by a thread of its own. It hands events over
-// without locks; memory is bounded, and what does not fit is dropped and counted.
+// Receiver: receives motion on a UDP port, on a thread of its own. It passes events on without
+// locks in a queue of fixed size; events that do not fit are dropped and counted.
 #pragma once
 
 #include <atomic>
@@ -42,7 +42,7 @@ class Receiver final : EventSink {
   bool pop(MocapEvent& event) noexcept { return ring_.pop(event); }
   Received received() const noexcept;
 
-  // Seconds on the clock by which arrivals are told.
+  // The clock of arrivals, in seconds.
   static double now() noexcept;
 
  private:

@@ -11,7 +11,7 @@ namespace gait::osc {
 
 namespace {
 
-// The usual way down from one told bone to the next, over those that were not.
+// Usual offset from one known bone to the next, over the unknown bones in between.
 Eigen::Vector3d usual_way(int bone, int above) {
   Eigen::Vector3d way = Eigen::Vector3d::Zero();
   for (; bone >= 0 && bone != above; bone = bone_parent(bone)) way += usual_offset(bone);
@@ -28,7 +28,7 @@ bool Recording::add(const CapturedFrame& frame) {
     add_named(frame);
   } else {
     if (!pose_.take(frame)) return false;
-    if (!pose_.local().turned[index_of(Bone::hips)]) return false;  // nothing to hang it on yet
+    if (!pose_.local().turned[index_of(Bone::hips)]) return false;  // there is no root yet
     add_humanoid();
   }
   times_.push_back(frame.time);
@@ -68,8 +68,8 @@ void Recording::add_named(const CapturedFrame& frame) {
 
 double Recording::frame_rate() const {
   if (frames() < 2 || !(times_.back() > times_.front())) return 30;
-  // The usual interval: over a pause in the stream the walk goes on where it stopped. Half the
-  // intervals are averaged, for arrivals tremble.
+  // The usual interval, so that a pause in the stream does not count. Averages the middle half of
+  // the intervals, because arrivals jitter.
   std::vector<double> intervals;
   for (std::size_t i = 1; i < times_.size(); ++i) intervals.push_back(times_[i] - times_[i - 1]);
   std::ranges::sort(intervals);
@@ -105,7 +105,7 @@ Clip Recording::clip(const std::string& name) const {
   clip.frame_rate = frame_rate();
   std::vector<int> source;  // per joint of the clip: index into a frame
   if (by_names_) {
-    // Parents first, whatever order they were told in.
+    // Parents first, independent of the order of arrival.
     std::vector<int> joint_of(rig_.size(), -1);
     for (bool more = true; more;) {
       more = false;
@@ -128,7 +128,7 @@ Clip Recording::clip(const std::string& name) const {
   for (int frame = 0; frame < frames(); ++frame)
     for (std::size_t joint = 0; joint < source.size(); ++joint) {
       const auto& pose = poses_[static_cast<std::size_t>(frame)];
-      // Joints that came later than the first frame were at rest until then.
+      // Joints that arrived after the first frame are at rest until then.
       if (source[joint] >= static_cast<int>(pose.size())) continue;
       const Joint& told = pose[static_cast<std::size_t>(source[joint])];
       clip.pose(frame)[joint] = told.rotation.cast<double>().normalized();

@@ -1,4 +1,4 @@
-// Recording: frames of one performer as they came, made a clip of the sender's own rig.
+// Recording: stores the frames of one performer and makes a clip on the sender's own rig from them.
 #pragma once
 
 #include <vector>
@@ -12,15 +12,15 @@ class Recording {
  public:
   static constexpr int most_frames = 1 << 20;  // nearly five hours at 60 a second
 
-  // False when it is full, or the frame says nothing of a body (values of a model).
+  // Returns false when it is full, or when the frame holds no body (values of a model).
   bool add(const CapturedFrame& frame);
   int frames() const { return static_cast<int>(times_.size()); }
-  // Frames per second as they came, a whole number where it is within a hundredth of one; 30 for a
-  // single frame.
+  // Frames per second of the arrivals, a whole number when it is within a hundredth of one; 30 for
+  // a single frame.
   double frame_rate() const;
 
-  // All frames, one after the other. Bones whose places nobody told have usual lengths. Throws
-  // Error when there are none.
+  // All frames as a clip. Bones without known places have usual lengths. Throws Error when there
+  // are no frames.
   Clip clip(const std::string& name) const;
 
  private:
@@ -38,7 +38,7 @@ class Recording {
   std::bitset<humanoid_bones> told_;
   std::array<Eigen::Vector3d, humanoid_bones> offsets_;
   std::bitset<humanoid_bones> offset_known_;
-  std::vector<NamedJoint> rig_;  // as it was told last
+  std::vector<NamedJoint> rig_;  // as it last arrived
   std::vector<double> times_;
   std::vector<std::vector<Joint>> poses_;  // by bone, or by named joint
 };

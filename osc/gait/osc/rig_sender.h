@@ -1,5 +1,5 @@
-// Rig sender: a rig by its own names in the project's own form, so that the same rig stands at the
-// other end. Nothing allocates after construction.
+// Rig sender: sends a rig with its own names in the project's own form, so that the receiver has
+// the same rig. Nothing allocates after construction.
 #pragma once
 
 #include <Eigen/Geometry>

@@ -13,9 +13,9 @@ Eigen::Quaterniond rotation_of(const std::array<float, 4>& q) {
 }
 Eigen::Vector3d place_of(const std::array<float, 3>& p) { return {p[0], p[1], p[2]}; }
 
-// Bridges send bones relative to their parents or in the world, as the program behind them is set,
-// and do not say which. A head further than half a metre from nothing is not told relative to its
-// parent; one that is nearer may have come there on a stage.
+// Bridges send bones relative to their parents or in the world, depending on a setting of the
+// program behind them that they do not send. A head more than half a metre from the origin is not
+// relative to its parent; a nearer one may still be in the world.
 bool told_in_world(const HumanoidPose& told) {
   constexpr double longest_neck = 0.5;
   for (const Bone bone : {Bone::head, Bone::left_lower_leg, Bone::right_lower_leg}) {
@@ -25,7 +25,7 @@ bool told_in_world(const HumanoidPose& told) {
   return false;
 }
 
-// Where a limb's bone ends, -1: it is no limb's.
+// The bone at the end of a limb's bone; -1: it is not of a limb.
 int limb_end(int bone) {
   switch (static_cast<Bone>(bone)) {
     case Bone::neck:
@@ -57,8 +57,8 @@ bool SenderPose::take(const CapturedFrame& frame) noexcept {
       told_.turns[bone] = left_handed ? mirrored(q) : q;
       told_.turned.set(bone);
     }
-    // Many senders know no places and put zeros: those are never used. Where others are told, a
-    // joint at zero sits on its parent.
+    // Many senders have no places and send zeros: these are ignored. When other places are known, a
+    // joint at zero is at its parent.
     const bool told =
         frame.placed[bone] && (frame.places[bone] != nowhere || (bone > 0 && places_known_));
     if (told) {
@@ -118,8 +118,9 @@ void SenderPose::take_world() noexcept {
   }
 }
 
-// Cameras disagree on which way X and Y go. The head is above the hips, and who faces the camera
-// (which looks along its Z) has the right hand on the side of +X in a right-handed frame.
+// Cameras differ in the directions of X and Y. The head is above the hips, and a performer who
+// faces the camera (which looks along its Z) has the right hand on the side of +X in a right-handed
+// frame.
 void SenderPose::judge_axes() noexcept {
   const auto known = [this](Bone bone) { return told_.placed[index_of(bone)]; };
   const auto at = [this](Bone bone) { return told_.places[index_of(bone)]; };
@@ -141,7 +142,7 @@ void SenderPose::take_places(const CapturedFrame& frame) noexcept {
       world_.places[bone] = told_.places[bone].cwiseProduct(Eigen::Vector3d(x_sign_, y_sign_, 1));
   if (!axes_judged_) return;
   turns_from_places(world_);
-  // The hips are no joint of these cameras: they lie between the thighs.
+  // These cameras have no joint for the hips: it is put between the thighs.
   constexpr auto hips = static_cast<std::size_t>(index_of(Bone::hips));
   if (world_.turned[hips]) {
     world_.placed.set(hips);
@@ -149,7 +150,7 @@ void SenderPose::take_places(const CapturedFrame& frame) noexcept {
                            world_.places[index_of(Bone::right_upper_leg)]) /
                           2;
   }
-  // A bone is seen as long as both of its ends are.
+  // A bone is known as long as both of its ends are.
   for (int bone = 0; bone < humanoid_bones; ++bone) {
     const auto here = static_cast<std::size_t>(bone);
     if (!world_.turned[here]) continue;

@@ -1,4 +1,4 @@
-// Sender pose: what a frame told, as rotations and places in the world of the sender's own joints,
+// Sender pose: the latest rotations and places of the sender's own joints in the world,
 // right-handed, Y up, metres.
 #pragma once
 
@@ -9,22 +9,23 @@ namespace gait::osc {
 
 class SenderPose {
  public:
-  // Takes what the frame told in; what it did not tell is held as it was. Frames of named joints
-  // and of values are not for this: false, nothing changed.
+  // Takes the rotations and places in a frame; all others keep their values. Returns false and
+  // changes nothing for frames of named joints and of values.
   bool take(const CapturedFrame& frame) noexcept;
   void reset() noexcept { *this = {}; }
 
-  // Turns hold the rotations in the world (for a calibration to read). Bones that were ever told.
+  // All bones that have ever arrived; `turns` holds their rotations in the world, as
+  // SenderCalibration takes them.
   const HumanoidPose& world() const noexcept { return world_; }
-  // As they came: rotation relative to the nearest told bone above, place relative to it; for
-  // recording the sender's own rig. Places that are all zero are not told.
+  // The same bones relative to the nearest known bone above, for recordings of the sender's own
+  // rig. Places that are all zero count as unknown.
   const HumanoidPose& local() const noexcept { return local_; }
-  // When a bone was told last, seconds on the clock of arrivals.
+  // Time of a bone's last arrival, seconds on the clock of arrivals.
   double seen(int bone) const noexcept { return seen_[static_cast<std::size_t>(bone)]; }
   // Whether the hips' place is known.
   bool placed() const noexcept { return world_.placed[index_of(Bone::hips)]; }
-  // Places only: which way their X and Y go is judged anew with the next whole frame, in which the
-  // performer faces the camera.
+  // For senders of places alone: finds the directions of their X and Y anew from the next complete
+  // frame, in which the performer faces the camera.
   void judge_axes_again() noexcept { axes_judged_ = false; }
 
  private:
@@ -33,7 +34,7 @@ class SenderPose {
   void take_places(const CapturedFrame& frame) noexcept;
   void judge_axes() noexcept;
 
-  HumanoidPose world_, local_, told_;  // told_: in the sender's numbers, made right-handed
+  HumanoidPose world_, local_, told_;  // told_: as sent, made right-handed
   std::array<double, humanoid_bones> seen_{}, place_seen_{};
   Eigen::Vector3d root_ = Eigen::Vector3d::Zero();
   Eigen::Quaterniond root_rotation_ = Eigen::Quaterniond::Identity();

@@ -259,7 +259,7 @@ TEST(SpeedWalker, walks_between_two_subjects) {
   SpeedWalker tall = walker(), small = walker(), between = walker();
   tall.set_subject("tall");
   small.set_subject("short");
-  EXPECT_EQ(between.set_weights(std::vector<float>{3, 3}), Taken::as_given);
+  EXPECT_EQ(between.set_weights(std::vector<float>{3, 3}), ControlResult::as_given);
   for (SpeedWalker* one : {&tall, &small, &between}) {
     one->set_leg_length(0.8f);
     one->set_speed(1.3f);
@@ -273,14 +273,14 @@ TEST(SpeedWalker, walks_between_two_subjects) {
 
 TEST(SpeedWalker, controls_out_of_range_are_clamped_with_a_word) {
   SpeedWalker walking = walker();
-  EXPECT_EQ(walking.set_speed(5), Taken::clamped);
+  EXPECT_EQ(walking.set_speed(5), ControlResult::clamped);
   walking.settle();
   EXPECT_NEAR(walking.speed(), 10 / 3.6, 1e-5);
-  EXPECT_EQ(walking.set_speed(-1), Taken::clamped);
-  EXPECT_EQ(walking.set_speed(1.5f), Taken::as_given);
-  EXPECT_EQ(walking.set_leg_length(0.01f), Taken::clamped);
-  EXPECT_EQ(walking.set_speed(2.5f), Taken::clamped) << "too fast for legs of 0.3 m";
-  EXPECT_EQ(walking.set_leg_length(0.9f), Taken::as_given);
+  EXPECT_EQ(walking.set_speed(-1), ControlResult::clamped);
+  EXPECT_EQ(walking.set_speed(1.5f), ControlResult::as_given);
+  EXPECT_EQ(walking.set_leg_length(0.01f), ControlResult::clamped);
+  EXPECT_EQ(walking.set_speed(2.5f), ControlResult::clamped) << "too fast for legs of 0.3 m";
+  EXPECT_EQ(walking.set_leg_length(0.9f), ControlResult::as_given);
 }
 
 TEST(SpeedWalker, controls_that_are_no_numbers_change_nothing) {
@@ -290,15 +290,15 @@ TEST(SpeedWalker, controls_that_are_no_numbers_change_nothing) {
   for (const float bad :
        {std::numeric_limits<float>::quiet_NaN(), std::numeric_limits<float>::infinity(),
         -std::numeric_limits<float>::infinity()}) {
-    EXPECT_EQ(walking.set_speed(bad), Taken::refused);
-    EXPECT_EQ(walking.set_leg_length(bad), Taken::refused);
-    EXPECT_EQ(walking.set_weights(std::vector<float>{1, bad}), Taken::refused);
+    EXPECT_EQ(walking.set_speed(bad), ControlResult::refused);
+    EXPECT_EQ(walking.set_leg_length(bad), ControlResult::refused);
+    EXPECT_EQ(walking.set_weights(std::vector<float>{1, bad}), ControlResult::refused);
     walking.advance(bad);
   }
-  EXPECT_EQ(walking.set_weights(std::vector<float>{1}), Taken::refused);
-  EXPECT_EQ(walking.set_weights(std::vector<float>{0, 0}), Taken::refused);
-  EXPECT_EQ(walking.set_weights(std::vector<float>{2, -1}), Taken::refused);
-  EXPECT_EQ(walking.set_subject("nobody"), Taken::refused);
+  EXPECT_EQ(walking.set_weights(std::vector<float>{1}), ControlResult::refused);
+  EXPECT_EQ(walking.set_weights(std::vector<float>{0, 0}), ControlResult::refused);
+  EXPECT_EQ(walking.set_weights(std::vector<float>{2, -1}), ControlResult::refused);
+  EXPECT_EQ(walking.set_subject("nobody"), ControlResult::refused);
   walking.advance(-1);
   walk(walking, 1);
   walk(untouched, 1);

@@ -3,13 +3,14 @@
 #include <algorithm>
 #include <cmath>
 
+#include "gait/motion/finite.h"
+
 namespace gait {
 
 namespace {
 
 bool usable(std::span<const float> values, Eigen::Index size) noexcept {
-  return static_cast<Eigen::Index>(values.size()) == size &&
-         std::ranges::all_of(values, [](float value) { return std::isfinite(value); });
+  return static_cast<Eigen::Index>(values.size()) == size && all_finite(values);
 }
 
 // The values of a frame's rotations, to where a whole pose has their joints.

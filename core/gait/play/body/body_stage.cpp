@@ -24,7 +24,7 @@ BodyStage::BodyStage(std::shared_ptr<const Model> model)
       period_(static_cast<float>(1 / model_->frame_rate)),
       assembly_(model_),
       roots_(Eigen::VectorXf::Zero(4)),
-      filter_(model_->body->skeleton.size(), model_->frame_rate),
+      filter_(model_->body->skeleton.size()),
       motion_(model_->body->skeleton, body_roles(*model_->body), model_->frame_rate),
       foot_lock_(model_->body->skeleton, body_roles(*model_->body), model_->frame_rate),
       meter_(*model_) {
@@ -143,7 +143,7 @@ void BodyStage::make() noexcept {
   values_ = assembly_.values();
   pose_from<float>(pose(), references_, pose_);
   if (filter_.on()) {
-    filter_.apply(pose_);
+    filter_.apply(pose_, period_);
     pose_vector<float>(pose_, references_, {values_.data(), 3 * pose_.size()});
   }
   if (watched_) meter_.advance(pose_);

@@ -22,12 +22,12 @@
 #include <vector>
 
 #include "gait/model/model.h"
+#include "gait/motion/one_euro_filter.h"
 #include "gait/motion/steps.h"
 #include "gait/play/body/body_assembly.h"
 #include "gait/play/body/foot_lock.h"
 #include "gait/play/body/foot_touch.h"
 #include "gait/play/body/motion_meter.h"
-#include "gait/play/body/one_euro_filter.h"
 #include "gait/play/body/root_motion.h"
 #include "gait/play/change/glide.h"
 
@@ -129,7 +129,7 @@ class BodyStage {
 
   BodyAssembly assembly_;
   DelayedFrames roots_;  // x y z heading
-  OneEuroFilter filter_;
+  OneEuroFilter<float> filter_;
   RootMotion motion_;
   FootLock foot_lock_;
   std::vector<std::size_t> leg_joints_;  // that the lock corrects

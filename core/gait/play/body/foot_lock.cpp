@@ -4,6 +4,7 @@
 #include <cmath>
 
 #include "gait/motion/rotation.h"
+#include "gait/motion/smoothing.h"
 
 namespace gait {
 namespace {
@@ -31,12 +32,7 @@ constexpr float out_of_line = 0.1f;         // rad: less bent, a knee's axis is 
 
 // 1 up to where the range begins, 0 from its end on.
 float within(float value, const Range& range) noexcept {
-  const float x = std::clamp((range.to - value) / (range.to - range.from), 0.0f, 1.0f);
-  return x * x * (3 - 2 * x);
-}
-
-float gain(double frame_rate, double seconds) {
-  return static_cast<float>(-std::expm1(-1 / (frame_rate * seconds)));
+  return smoothstep(range.to, range.from, value);
 }
 
 // In this measure of a knee's angle the squared distance from hip to ankle is linear.
@@ -55,8 +51,8 @@ FootLock::FootLock(const Skeleton& skeleton, const JointRoles& roles, double fra
     : hips_(roles.hips),
       joints_(skeleton.joints.size()),
       period_(static_cast<float>(1 / frame_rate)),
-      fading_gain_(gain(frame_rate, fading_seconds)),
-      release_gain_(gain(frame_rate, release_seconds)),
+      fading_gain_(first_order_gain(1 / frame_rate, fading_seconds)),
+      release_gain_(first_order_gain(1 / frame_rate, release_seconds)),
       legs_{chain(skeleton, roles.right, roles.hips), chain(skeleton, roles.left, roles.hips)} {}
 
 FootLock::LegChain FootLock::chain(const Skeleton& skeleton, const Leg& leg, int hips) {

@@ -4,6 +4,7 @@
 #include <cmath>
 
 #include "gait/motion/rotation.h"
+#include "gait/motion/smoothing.h"
 
 namespace gait {
 
@@ -34,7 +35,7 @@ double largest_square(const Model& model) {
 
 MotionMeter::MotionMeter(const Model& model)
     : rate_(static_cast<float>(model.frame_rate)),
-      share_(static_cast<float>(1 - std::exp(-1 / (seconds * model.frame_rate)))),
+      share_(first_order_gain(1 / model.frame_rate, seconds)),
       joints_(model.body->input_joints),
       before_(static_cast<std::size_t>(model.body->skeleton.size()),
               Eigen::Quaternionf::Identity()),

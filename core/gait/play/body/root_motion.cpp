@@ -7,6 +7,7 @@
 
 #include "gait/error.h"
 #include "gait/motion/rotation.h"
+#include "gait/motion/smoothing.h"
 
 namespace gait {
 namespace {
@@ -42,10 +43,6 @@ struct Push {
 };
 constexpr Push push_alone{12.0f, 400.0f}, push_gently{3.0f, 50.0f}, lift_gently{5.0f, 200.0f};
 
-float gain(double frame_rate, double seconds) {
-  return static_cast<float>(1 - std::exp(-1 / (frame_rate * seconds)));
-}
-
 Eigen::Vector3f horizontal(const Eigen::Vector3f& v) noexcept { return {v.x(), 0, v.z()}; }
 
 }  // namespace
@@ -63,12 +60,12 @@ RootMotion::RootMotion(const Skeleton& skeleton, const JointRoles& roles, double
       throw Error("root motion: expected joint '" + skeleton.joints[leg->foot].name +
                   "' below the hips '" + skeleton.joints[roles.hips].name + "'");
   period_ = static_cast<float>(1 / frame_rate);
-  speed_gain_ = gain(frame_rate, speed_seconds);
-  travel_gain_ = gain(frame_rate, travel_seconds);
-  height_gain_ = gain(frame_rate, height_seconds);
-  recovery_gain_ = gain(frame_rate, recovery_seconds);
-  gentle_gain_ = gain(frame_rate, gentle_lag_seconds);
-  gentle_recovery_gain_ = gain(frame_rate, gentle_recovery_seconds);
+  speed_gain_ = first_order_gain(1 / frame_rate, speed_seconds);
+  travel_gain_ = first_order_gain(1 / frame_rate, travel_seconds);
+  height_gain_ = first_order_gain(1 / frame_rate, height_seconds);
+  recovery_gain_ = first_order_gain(1 / frame_rate, recovery_seconds);
+  gentle_gain_ = first_order_gain(1 / frame_rate, gentle_lag_seconds);
+  gentle_recovery_gain_ = first_order_gain(1 / frame_rate, gentle_recovery_seconds);
   add_points(skeleton, roles.hips, roles.right.foot, Foot::right);
   add_points(skeleton, roles.hips, roles.left.foot, Foot::left);
   reset();

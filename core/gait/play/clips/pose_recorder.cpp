@@ -6,6 +6,7 @@
 #include <numeric>
 #include <utility>
 
+#include "gait/motion/finite.h"
 #include "gait/play/body/root_motion.h"
 
 namespace gait {
@@ -68,9 +69,7 @@ void PoseRecorder::clear() {
 }
 
 bool PoseRecorder::take(std::span<const float> values, std::span<const int> joints) noexcept {
-  if (values.size() != 3 * joints.size()) return false;
-  if (!std::all_of(values.begin(), values.end(), [](float value) { return std::isfinite(value); }))
-    return false;
+  if (values.size() != 3 * joints.size() || !all_finite(values)) return false;
   for (std::size_t i = 0; i < joints.size(); ++i)
     pose_[joints[i]] =
         rotation_from<float>(values.subspan(3 * i).first<3>(), references_[joints[i]]);

@@ -7,6 +7,7 @@
 #include "gait/error.h"
 #include "gait/model/body_pose.h"
 #include "gait/motion/rotation.h"
+#include "gait/motion/smoothing.h"
 
 namespace gait {
 
@@ -30,7 +31,7 @@ Eigen::MatrixXd closed(const Eigen::MatrixXd& frames_by_columns, int frames) {
   const Eigen::MatrixXd gap = frame(0) - (2 * frame(frames - 1) - frame(frames - 2));
   for (int k = frames - spread; k < frames; ++k) {
     const double share = static_cast<double>(k - (frames - spread)) / spread;
-    result.middleRows(k * values, values) += share * share * (3 - 2 * share) * gap;
+    result.middleRows(k * values, values) += smoothstep(share) * gap;
   }
   return result;
 }

@@ -6,6 +6,8 @@
 #include "gait/error.h"
 #include "gait/model/body_pose.h"
 #include "gait/motion/rotation.h"
+#include "gait/motion/smoothing.h"
+#include "gait/motion/two_bone.h"
 
 namespace gait {
 
@@ -31,27 +33,22 @@ void widen_round(std::vector<double>& values) {
       values[k] = std::max(values[k], narrow[(k + i + count) % count]);
 }
 
-double smooth_step(double from, double until, double x) {
-  const double share = std::clamp((x - from) / (until - from), 0.0, 1.0);
-  return share * share * (3 - 2 * share);
-}
-
 // How much a foot swings, 0 to 1, at this part of a cycle since its contact.
 double swing(double since_contact) {
   since_contact -= std::floor(since_contact);
-  return smooth_step(0.57, 0.67, since_contact) * (1 - smooth_step(0.9, 1.0, since_contact));
+  return smoothstep(0.57, 0.67, since_contact) * (1 - smoothstep(0.9, 1.0, since_contact));
 }
 
 // In the middle of the swing, when toes that push off have long left the ground.
 double rise(double since_contact) {
   since_contact -= std::floor(since_contact);
-  return smooth_step(0.6, 0.76, since_contact) * (1 - smooth_step(0.84, 0.98, since_contact));
+  return smoothstep(0.6, 0.76, since_contact) * (1 - smoothstep(0.84, 0.98, since_contact));
 }
 
 // How much of the body it carries: the other foot the rest.
 double carries(double since_contact) {
   since_contact -= std::floor(since_contact);
-  return smooth_step(0.0, 0.12, since_contact) * (1 - smooth_step(0.5, 0.62, since_contact));
+  return smoothstep(0.0, 0.12, since_contact) * (1 - smoothstep(0.5, 0.62, since_contact));
 }
 
 void smooth_round(std::vector<double>& values) {
@@ -231,19 +228,17 @@ void GroundedCycle::reach(Placed& pose, const Leg& leg, const Eigen::Vector3d& a
   };
   const Eigen::Vector3d thigh = pose.world[leg.shank].place - pose.world[leg.thigh].place;
   const Eigen::Vector3d shank = pose.world[leg.foot].place - pose.world[leg.shank].place;
-  const double lengths = thigh.norm() * shank.norm();
+  const TwoBones bones{thigh.norm(), shank.norm()};
   Eigen::Vector3d axis = thigh.cross(shank);
   double bent = std::atan2(axis.norm(), thigh.dot(shank));
   // A knee that is bent the wrong way comes back; one that is straight bends about the axis across.
-  if (axis.norm() < 1e-4 * lengths) {
+  if (axis.norm() < 1e-4 * bones.upper * bones.lower) {
     axis = Eigen::Vector3d::UnitX();
   } else {
     axis.normalize();
     if (axis.x() < -0.5) axis = -axis, bent = -bent;
   }
-  const double wanted = (ankle - pose.world[leg.thigh].place).squaredNorm();
-  const double cosine = (wanted - thigh.squaredNorm() - shank.squaredNorm()) / (2 * lengths);
-  const double bend = std::acos(std::clamp(cosine, -1.0, 1.0));
+  const double bend = bones.bend_at((ankle - pose.world[leg.thigh].place).norm());
   turn(leg.shank, Eigen::Quaterniond(Eigen::AngleAxisd(bend - bent, axis)));
   turn(leg.thigh, turn_between(pose.world[leg.foot].place - pose.world[leg.thigh].place,
                                ankle - pose.world[leg.thigh].place));

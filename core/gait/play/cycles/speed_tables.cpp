@@ -16,9 +16,9 @@ namespace {
 constexpr int slow_steps = 5;  // from standing to the slowest captured speed
 constexpr int fast_steps = 8;  // from there to the highest
 
-constexpr float slowest_asked = 0.2f;  // V; slower feet hardly tell where they go
+constexpr float slowest_measured = 0.2f;  // V; slower feet hardly tell where they go
 constexpr float seconds_to_settle = 0.6f;
-constexpr int cycles_asked = 4;  // each sampled elsewhere
+constexpr int cycles_measured = 4;  // each sampled elsewhere
 
 // The cycle in a space that has these scores, one column per frame.
 Eigen::MatrixXd cycle_of(const CycleSpace& space, const Eigen::VectorXd& scores, bool with_mean) {
@@ -55,18 +55,19 @@ SubjectCyclesOverSpeed cycles_over_speed(const SpeedSpace& subject, const CycleS
   return result;
 }
 
-// Walks along and says how far the feet went.
-class FeetAsked {
+// Measures how far the feet take a walker per cycle: plays its cycles and reads the root that
+// the feet in stance move.
+class StrideMeasurement {
  public:
-  FeetAsked(const Model& model, const SpeedTables& tables, double frame_rate)
+  StrideMeasurement(const Model& model, const SpeedTables& tables, double frame_rate)
       : frames_per_second_(static_cast<float>(frame_rate)),
         tables_(tables),
         reader_(tables),
         root_(model.body->skeleton, body_roles(*model.body), frame_rate),
         pose_(model.body->skeleton.joints.size()) {}
 
-  void ask(SubjectCyclesOverSpeed& subject) {
-    const int first = static_cast<int>(std::lround(slowest_asked / stride_grid));
+  void measure(SubjectCyclesOverSpeed& subject) {
+    const int first = static_cast<int>(std::lround(slowest_measured / stride_grid));
     const int count = static_cast<int>(std::ceil(highest_speed_per_leg / stride_grid)) + 1;
     subject.strides.assign(static_cast<std::size_t>(count), 0.f);
     // From fast to slow: there the way is clear from the first frame.
@@ -99,13 +100,13 @@ class FeetAsked {
   float travelled(const SubjectCyclesOverSpeed& subject, float speed, float frequency) {
     frequency = std::clamp(frequency, 0.2f, 4.f);
     // As many frames as fill whole cycles.
-    const float frames = std::round(cycles_asked * frames_per_second_ / frequency);
-    const float per_frame = cycles_asked / frames;
+    const float frames = std::round(cycles_measured * frames_per_second_ / frequency);
+    const float per_frame = cycles_measured / frames;
     walk(subject, speed, frames_per_second_ * seconds_to_settle, per_frame);
     const Eigen::Vector3f from = root_.position();
     walk(subject, speed, frames, per_frame);
     const Eigen::Vector3f way = root_.position() - from;
-    return std::max(0.02f, std::hypot(way.x(), way.z()) / cycles_asked / tables_.leg_length);
+    return std::max(0.02f, std::hypot(way.x(), way.z()) / cycles_measured / tables_.leg_length);
   }
 
   float frames_per_second_;
@@ -176,8 +177,8 @@ std::shared_ptr<const SpeedTables> make_speed_tables(const Model& model, double 
     tables->subjects.push_back(
         cycles_over_speed(subject, space, shared ? subject.shared : own, grounded));
   }
-  FeetAsked feet(model, *tables, frame_rate);
-  for (SubjectCyclesOverSpeed& subject : tables->subjects) feet.ask(subject);
+  StrideMeasurement strides(model, *tables, frame_rate);
+  for (SubjectCyclesOverSpeed& subject : tables->subjects) strides.measure(subject);
   return tables;
 }
 

@@ -3,6 +3,8 @@
 #include <algorithm>
 #include <cmath>
 
+#include "gait/motion/smoothing.h"
+
 namespace gait {
 
 namespace {
@@ -26,16 +28,11 @@ float towards(float from, float to, float most) noexcept {
   return from + std::clamp(to - from, -most, most);
 }
 
-float smooth_step(float from, float until, float x) noexcept {
-  const float share = std::clamp((x - from) / (until - from), 0.f, 1.f);
-  return share * share * (3 - 2 * share);
-}
-
 // How freely the stride may change: while one foot swings, it alone takes the change; while both
 // stand, one would slide. Never quite nothing, or a slow walk could not change.
 float freedom(double phase) noexcept {
   const float step = static_cast<float>(2 * phase - std::floor(2 * phase));
-  return 0.2f + 0.8f * smooth_step(0.15f, 0.35f, step) * (1 - smooth_step(0.88f, 1.f, step));
+  return 0.2f + 0.8f * smoothstep(0.15f, 0.35f, step) * (1 - smoothstep(0.88f, 1.f, step));
 }
 
 }  // namespace
@@ -49,53 +46,53 @@ SpeedWalker::SpeedWalker(std::shared_ptr<const SpeedTables> tables)
   settle();
 }
 
-Taken SpeedWalker::set_speed(float metres_per_second) noexcept {
-  if (!std::isfinite(metres_per_second)) return Taken::refused;
+ControlResult SpeedWalker::set_speed(float metres_per_second) noexcept {
+  if (!std::isfinite(metres_per_second)) return ControlResult::refused;
   wanted_speed_ = std::clamp(metres_per_second, 0.f, highest_speed);
   const bool too_fast_for_legs =
       wanted_leg_length_ > 0 && wanted_speed_ > highest_speed_per_leg * wanted_leg_length_;
-  return wanted_speed_ == metres_per_second && !too_fast_for_legs ? Taken::as_given
-                                                                  : Taken::clamped;
+  return wanted_speed_ == metres_per_second && !too_fast_for_legs ? ControlResult::as_given
+                                                                  : ControlResult::clamped;
 }
 
-Taken SpeedWalker::set_leg_length(float metres) noexcept {
-  if (!std::isfinite(metres)) return Taken::refused;
+ControlResult SpeedWalker::set_leg_length(float metres) noexcept {
+  if (!std::isfinite(metres)) return ControlResult::refused;
   wanted_leg_length_ = std::clamp(metres, shortest_leg, longest_leg);
-  return wanted_leg_length_ == metres ? Taken::as_given : Taken::clamped;
+  return wanted_leg_length_ == metres ? ControlResult::as_given : ControlResult::clamped;
 }
 
 void SpeedWalker::set_own_leg_length() noexcept { wanted_leg_length_ = 0; }
 
-Taken SpeedWalker::set_weights(std::span<const float> weights) noexcept {
-  if (weights.size() != wanted_weights_.size()) return Taken::refused;
+ControlResult SpeedWalker::set_weights(std::span<const float> weights) noexcept {
+  if (weights.size() != wanted_weights_.size()) return ControlResult::refused;
   double sum = 0;
   for (const float weight : weights) {
-    if (!std::isfinite(weight) || weight < 0) return Taken::refused;
+    if (!std::isfinite(weight) || weight < 0) return ControlResult::refused;
     sum += weight;
   }
-  if (!(sum > 0)) return Taken::refused;
+  if (!(sum > 0)) return ControlResult::refused;
   for (std::size_t i = 0; i < weights.size(); ++i)
     wanted_weights_[i] = static_cast<float>(weights[i] / sum);
-  return Taken::as_given;
+  return ControlResult::as_given;
 }
 
-Taken SpeedWalker::set_subject(std::string_view subject) noexcept {
+ControlResult SpeedWalker::set_subject(std::string_view subject) noexcept {
   const auto& subjects = tables_->subjects;
   for (std::size_t i = 0; i < subjects.size(); ++i) {
     if (subjects[i].subject != subject) continue;
     std::fill(wanted_weights_.begin(), wanted_weights_.end(), 0.f);
     wanted_weights_[i] = 1;
-    return Taken::as_given;
+    return ControlResult::as_given;
   }
-  return Taken::refused;
+  return ControlResult::refused;
 }
 
 void SpeedWalker::set_law(SpeedLaw law) noexcept { law_ = law; }
 
-Taken SpeedWalker::set_cadence(float steps_per_second) noexcept {
-  if (!std::isfinite(steps_per_second)) return Taken::refused;
+ControlResult SpeedWalker::set_cadence(float steps_per_second) noexcept {
+  if (!std::isfinite(steps_per_second)) return ControlResult::refused;
   cadence_ = std::clamp(steps_per_second, 0.f, highest_cadence);
-  return cadence_ == steps_per_second ? Taken::as_given : Taken::clamped;
+  return cadence_ == steps_per_second ? ControlResult::as_given : ControlResult::clamped;
 }
 
 bool SpeedWalker::scrub(double phase) noexcept {
@@ -210,7 +207,7 @@ void SpeedWalker::change_speed(float seconds) noexcept {
   }
   if (standing()) phase_ = first_phase;
   const float gain = std::clamp(missing / seconds_to_arrive, -most_gain, most_gain);
-  gaining_ += (gain - gaining_) * (1 - std::exp(-seconds / seconds_to_gain));
+  gaining_ += (gain - gaining_) * first_order_gain(seconds, seconds_to_gain);
   const float change = gaining_ * freedom(phase_) * seconds;
   // Not past what is wanted, whatever gain is left.
   const bool there = (missing > 0) == (change > 0) && std::abs(change) >= std::abs(missing);

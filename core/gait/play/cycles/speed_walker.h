@@ -29,7 +29,7 @@ enum class SpeedLaw {
 };
 
 // What became of a control.
-enum class Taken {
+enum class ControlResult {
   as_given,
   clamped,  // out of range; the nearest possible was taken
   refused   // not finite, unknown, negative weights: nothing changed
@@ -41,13 +41,13 @@ class SpeedWalker {
   explicit SpeedWalker(std::shared_ptr<const SpeedTables> tables);
 
   // m/s, 0 to 10 km/h, and less where legs are shorter than 0.73 m.
-  Taken set_speed(float metres_per_second) noexcept;
+  ControlResult set_speed(float metres_per_second) noexcept;
   // Thigh and shank, 0.3 to 1.5 m. Until it is set, that of the subjects walked as.
-  Taken set_leg_length(float metres) noexcept;
+  ControlResult set_leg_length(float metres) noexcept;
   void set_own_leg_length() noexcept;
   // One weight per subject, not negative; they are normalised.
-  Taken set_weights(std::span<const float> weights) noexcept;
-  Taken set_subject(std::string_view subject) noexcept;  // that one alone
+  ControlResult set_weights(std::span<const float> weights) noexcept;
+  ControlResult set_subject(std::string_view subject) noexcept;  // that one alone
   void set_law(SpeedLaw law) noexcept;
 
   // Moves on by `seconds` (at most a quarter of one is believed; not finite or negative: none).
@@ -57,7 +57,7 @@ class SpeedWalker {
   bool scrub(double phase) noexcept;
   // Steps per second from now on, whatever the law says and however the feet slide; 0: the law's
   // again. At most 8.
-  Taken set_cadence(float steps_per_second) noexcept;
+  ControlResult set_cadence(float steps_per_second) noexcept;
   // All controls are reached at once, without transition: a scene begins.
   void settle() noexcept;
   // Stands still, at once; speed and all other controls stay as they were set.

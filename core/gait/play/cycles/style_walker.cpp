@@ -5,6 +5,7 @@
 #include <cmath>
 
 #include "gait/error.h"
+#include "gait/motion/smoothing.h"
 
 namespace gait {
 
@@ -38,8 +39,6 @@ Eigen::VectorXf neutral_weights(const Model& model) {
                                    static_cast<Eigen::Index>(i));
   return even_weights(space);
 }
-
-double smooth(double share) noexcept { return share * share * (3 - 2 * share); }
 
 }  // namespace
 
@@ -267,7 +266,7 @@ bool StyleWalker::advance(double seconds) noexcept {
 }
 
 void StyleWalker::show() noexcept {
-  const auto next = static_cast<float>(smooth(std::max(0.0, (phase_ - (1 - join)) / join)));
+  const auto next = static_cast<float>(smoothstep(1 - join, 1.0, phase_));
   const float variation = variation_.value();
   for (int i = 0; i < components(); ++i) {
     const float z = draws_.current()[i] + next * (draws_.next()[i] - draws_.current()[i]);

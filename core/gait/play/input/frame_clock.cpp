@@ -6,6 +6,7 @@
 #include <utility>
 
 #include "gait/error.h"
+#include "gait/motion/finite.h"
 #include "gait/motion/rotation.h"
 
 namespace gait {
@@ -19,12 +20,6 @@ constexpr double pull = 0.1;  // share of the difference by which a pose moves t
 constexpr double same_rate = 0.02, other_rate = 0.05;
 constexpr double same_rate_tolerance = 0.3;  // of a period
 constexpr int intervals_to_know = 8;
-
-bool all_finite(std::span<const Eigen::Quaternionf> rotations,
-                std::span<const float> plain) noexcept {
-  return std::ranges::all_of(rotations, [](const auto& q) { return q.coeffs().allFinite(); }) &&
-         std::ranges::all_of(plain, [](float value) { return std::isfinite(value); });
-}
 
 }  // namespace
 
@@ -52,7 +47,7 @@ double FrameClock::usual_tolerance() const noexcept {
 FrameClock::Arrival FrameClock::push(double time, std::span<const Eigen::Quaternionf> rotations,
                                      std::span<const float> plain) noexcept {
   if (!std::isfinite(time) || rotations.size() != latest_.rotations.size() ||
-      plain.size() != latest_.plain.size() || !all_finite(rotations, plain))
+      plain.size() != latest_.plain.size() || !all_finite(rotations) || !all_finite(plain))
     return Arrival::rejected;
 
   const double passed = time - latest_.time;

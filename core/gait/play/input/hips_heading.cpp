@@ -7,23 +7,11 @@
 
 namespace gait {
 
-namespace {
-
-// From `above` to `joint`, over whatever joints a rig has between hips and thigh.
-Eigen::Vector3d place_at_rest(const Skeleton& skeleton, int joint, int above) {
-  Eigen::Vector3d place = Eigen::Vector3d::Zero();
-  for (; joint >= 0 && joint != above; joint = skeleton.joints[joint].parent)
-    place += skeleton.joints[joint].offset;
-  return place;
-}
-
-}  // namespace
-
 HipsHeading::HipsHeading(const Body& body, double frame_rate)
     : heading_(static_cast<int>(std::lround(body.heading_window * frame_rate))) {
   const JointRoles roles = body_roles(body);
-  right_to_left_thigh_ = (place_at_rest(body.skeleton, roles.left.thigh, roles.hips) -
-                          place_at_rest(body.skeleton, roles.right.thigh, roles.hips))
+  right_to_left_thigh_ = (body.skeleton.place_at_rest(roles.left.thigh, roles.hips) -
+                          body.skeleton.place_at_rest(roles.right.thigh, roles.hips))
                              .cast<float>();
 }
 

@@ -5,16 +5,9 @@
 #include <numbers>
 
 #include "gait/model/body_pose.h"
+#include "gait/motion/finite.h"
 
 namespace gait {
-
-namespace {
-
-bool all_finite(std::span<const float> values) noexcept {
-  return std::ranges::all_of(values, [](float value) { return std::isfinite(value); });
-}
-
-}  // namespace
 
 InputStream::InputStream(std::shared_ptr<const Model> model, double longest_gap)
     : model_(std::move(model)),

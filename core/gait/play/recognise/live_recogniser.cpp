@@ -2,6 +2,8 @@
 
 #include <cmath>
 
+#include "gait/motion/smoothing.h"
+
 namespace gait {
 
 namespace {
@@ -20,8 +22,7 @@ LiveRecogniser::LiveRecogniser(const PlayModel& played, const RecogniserSettings
       recogniser_(played, settings),
       standing_(*played.model),
       choice_(played.model->frame_rate),
-      forget_(static_cast<float>(1 - std::exp(-1 / (strange_seconds * played.model->frame_rate)))) {
-}
+      forget_(first_order_gain(1 / played.model->frame_rate, strange_seconds)) {}
 
 void LiveRecogniser::begin_anew() noexcept {
   recogniser_.reset();

@@ -5,6 +5,7 @@
 #include <utility>
 
 #include "gait/model/label_cycle.h"
+#include "gait/motion/finite.h"
 #include "gait/play/synthesise/falling_in_step.h"
 
 namespace gait {
@@ -27,10 +28,6 @@ std::vector<int> pose_positions(const Model& model) {
                           : place.joint >= 0 ? 3 * place.joint + i
                                              : -1);
   return positions;
-}
-
-bool all_finite(std::span<const float> values) noexcept {
-  return std::ranges::all_of(values, [](float value) { return std::isfinite(value); });
 }
 
 }  // namespace
