@@ -10,8 +10,6 @@ namespace gait::pd {
 
 namespace {
 
-constexpr int most_voices = 64;
-
 class Bvh final : public ModelUser {
  public:
   Bvh(Box& box, const Arguments& arguments)

@@ -17,7 +17,6 @@ namespace gait::pd {
 
 namespace {
 
-constexpr int most_voices = 64;
 constexpr double poll_interval = 1;       // ms: arrivals wait for at most this and a tick of Pd's
 constexpr int most_events_a_poll = 4096;  // so that a flood of packets does not block Pd
 

@@ -6,6 +6,9 @@
 
 namespace gait::pd {
 
+// Voices of one box (-poly) at most.
+constexpr int most_voices = 64;
+
 class VoiceMessage {
  public:
   // `number`: of the performer, -1: the box has only one.

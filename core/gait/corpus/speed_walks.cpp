@@ -7,8 +7,8 @@ namespace gait {
 
 namespace {
 
-constexpr double slowest = 0.6, step = 0.2;  // m/s
-constexpr int speeds = 8;                    // to 2 m/s
+constexpr double slowest = 0.6, speed_step = 0.2;  // m/s
+constexpr int speeds = 8;                          // to 2 m/s
 constexpr int cycles = 6;
 
 // A foot pitches as far as the step it takes is long; the mean gait gives all else at its speed.
@@ -27,7 +27,7 @@ std::vector<CorpusWalk> make_speed_walks(std::uint64_t seed, double frame_rate) 
   std::vector<CorpusWalk> walks;
   for (int i = 0; i < speeds; ++i) {
     WalkPlan plan;
-    const double speed = slowest + step * i;
+    const double speed = slowest + speed_step * i;
     plan.style = neutral_at(speed / plan.leg_length);
     plan.cycles = cycles, plan.seed = seed, plan.take = i + 1;
     CorpusWalk walk = make_walk(plan, frame_rate);

@@ -16,7 +16,6 @@ using Eigen::Vector3d;
 
 // Even, so that a foot's prints begin with a right one.
 constexpr int steps_before = 6, steps_after = 6;
-constexpr double mid_stance = 0.28;
 constexpr double straightest_knee = 0.13;
 
 enum Bone { thigh_bone, shank_bone, foot_bone };

@@ -12,8 +12,6 @@ namespace {
 using Eigen::Quaterniond;
 using Eigen::Vector3d;
 
-constexpr double mid_stance = 0.28;  // phase at which the right foot stands under the body
-
 double once_a_cycle(double phase) { return std::cos(2 * std::numbers::pi * (phase - mid_stance)); }
 double once_a_step(double phase) { return std::cos(4 * std::numbers::pi * (phase - mid_stance)); }
 

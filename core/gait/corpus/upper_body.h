@@ -14,6 +14,9 @@
 
 namespace gait {
 
+// Phase at which the right foot stands under the body.
+inline constexpr double mid_stance = 0.28;
+
 class UpperBody {
  public:
   // Varies over `steps` steps counted from `first_step`; `stream` names the take among all.

@@ -6,6 +6,7 @@
 #pragma once
 
 #include <Eigen/Core>
+#include <array>
 #include <cstdint>
 #include <filesystem>
 #include <string>
@@ -24,6 +25,9 @@ enum class Channel : std::uint8_t {
   y_rotation,
   z_rotation
 };
+// As files name them, in that order.
+inline constexpr std::array<std::string_view, 6> channel_names{
+    "Xposition", "Yposition", "Zposition", "Xrotation", "Yrotation", "Zrotation"};
 
 struct BvhFile {
   std::string name;                            // path, for messages

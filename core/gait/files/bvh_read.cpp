@@ -16,15 +16,6 @@ constexpr long long most_channels_per_joint = 32;
 constexpr long long most_frames = 1'000'000'000;
 constexpr std::size_t largest_file = std::size_t{1} << 30;
 
-constexpr std::array<std::pair<std::string_view, Channel>, 6> channel_names{{
-    {"Xposition", Channel::x_position},
-    {"Yposition", Channel::y_position},
-    {"Zposition", Channel::z_position},
-    {"Xrotation", Channel::x_rotation},
-    {"Yrotation", Channel::y_rotation},
-    {"Zrotation", Channel::z_rotation},
-}};
-
 Eigen::Vector3d read_offset(BvhCursor& cursor) {
   Eigen::Vector3d offset;
   for (int axis = 0; axis < 3; ++axis) offset[axis] = cursor.number("one of the three of OFFSET");
@@ -33,10 +24,10 @@ Eigen::Vector3d read_offset(BvhCursor& cursor) {
 
 Channel read_channel(BvhCursor& cursor, std::string_view joint) {
   const std::string_view word = cursor.peek();
-  for (const auto& [name, channel] : channel_names)
-    if (same_word(word, name)) {
+  for (std::size_t i = 0; i < channel_names.size(); ++i)
+    if (same_word(word, channel_names[i])) {
       cursor.word();
-      return channel;
+      return static_cast<Channel>(i);
     }
   cursor.fail("expected a channel of joint " + in_quotes(joint) +
               " (Xposition ... Zrotation, as many as CHANNELS says), found " +

@@ -10,9 +10,6 @@
 namespace gait {
 namespace {
 
-constexpr std::array<std::string_view, 6> channel_names{"Xposition", "Yposition", "Zposition",
-                                                        "Xrotation", "Yrotation", "Zrotation"};
-
 // The shortest text that reads back as the same double; an exponent only where it must be, as some
 // readers know none.
 void append(std::string& text, double value) {

@@ -16,7 +16,7 @@ namespace {
 
 constexpr double ticks_per_second = 1e7;  // HTK's 100 ns
 constexpr double longest_time = 1e8;      // three years, in seconds: more is a damaged file
-constexpr double most_frames = 1e9;
+constexpr double most_labelled_frames = 1e9;
 
 bool is_space(char c) { return c == ' ' || c == '\t' || c == '\r'; }
 
@@ -179,7 +179,7 @@ std::vector<Contact> contacts_from_labels(std::vector<LabelSegment> segments, do
     if (!foot) continue;
     const std::string where =
         " in the step '" + segment.label + "' at " + std::to_string(segment.start) + " s";
-    if (!(segment.end * frame_rate < most_frames))
+    if (!(segment.end * frame_rate < most_labelled_frames))
       throw Error("expected fewer than 1e9 frames" + where + ", found more");
     const int begin = static_cast<int>(std::lround(segment.start * frame_rate));
     const int end = static_cast<int>(std::lround(segment.end * frame_rate));

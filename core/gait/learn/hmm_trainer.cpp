@@ -24,10 +24,10 @@ Eigen::VectorXd pooled_target(const std::vector<StateStatistics>& statistics) {
   return (sum / count).cwiseMax(1e-4);
 }
 
-class Training {
+class TrainingRun {
  public:
-  Training(const std::vector<ObservedSequence>& sequences, const StateTable& table, int styles,
-           const HmmOptions& options)
+  TrainingRun(const std::vector<ObservedSequence>& sequences, const StateTable& table, int styles,
+              const HmmOptions& options)
       : sequences_(sequences), table_(table), styles_(styles), options_(options) {
     all_.resize(sequences.size());
     std::iota(all_.begin(), all_.end(), 0);
@@ -149,7 +149,7 @@ Eigen::MatrixXd regularised(const Eigen::MatrixXd& covariance, double count,
 
 TrainedStates train_states(const std::vector<ObservedSequence>& sequences, const StateTable& table,
                            int styles, const HmmOptions& options) {
-  return Training(sequences, table, styles, options).run();
+  return TrainingRun(sequences, table, styles, options).run();
 }
 
 }  // namespace gait

@@ -10,7 +10,7 @@ namespace {
 
 // The least variance, and the least share of a dimension's variance that those before it may leave
 // unexplained: what is below is rounding, and its inverse would be noise.
-constexpr double least_variance = 1e-12;
+constexpr double least_variance_of_states = 1e-12;
 constexpr double least_share = 1e-12;
 // Of the standard deviations: how far two halves may differ by the order of summation.
 constexpr double most_asymmetry = 1e-9;
@@ -30,7 +30,7 @@ void CovarianceCheck::expect(const Eigen::MatrixXd& covariance, const std::strin
   if (!symmetric(covariance, most_asymmetry * variances.abs().maxCoeff()))
     throw Error(field + ": expected a symmetric matrix");
   factor_.compute(covariance);
-  if (factor_.info() != Eigen::Success || !(variances >= least_variance).all() ||
+  if (factor_.info() != Eigen::Success || !(variances >= least_variance_of_states).all() ||
       !(factor_.matrixLLT().diagonal().array().square() >= least_share * variances).all())
     throw Error(field + ": expected a positive definite matrix");
 }

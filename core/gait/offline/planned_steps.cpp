@@ -8,12 +8,6 @@
 
 namespace gait {
 
-namespace {
-
-constexpr double lead_in_seconds = 2;  // until the feet have found their direction
-
-}  // namespace
-
 Clip stepped_walk(const std::shared_ptr<const Model>& model, const StyledWalkPlan& plan) {
   StepWalker walker(model);
   required_body(*model);

@@ -13,9 +13,6 @@ namespace gait {
 
 namespace {
 
-// A walk under way: long enough for the feet to have found their direction.
-constexpr double lead_in_seconds = 2;
-
 std::string styles_that_walk(const Model& model) {
   std::string names;
   for (std::size_t i = 0; i < model.styles.size(); ++i)

@@ -17,6 +17,9 @@
 
 namespace gait {
 
+// A walk is played for so long before it is recorded: the feet find their direction.
+inline constexpr double lead_in_seconds = 2;
+
 class WalkRecorder {
  public:
   // `scale`: how much larger than the model's body the walker is. `turn`: heading rate, radians per

@@ -24,7 +24,7 @@ constexpr double speed_seconds = 0.015;
 constexpr double travel_seconds = 0.5;
 constexpr double height_seconds = 0.1 / 3;  // 95 % of a height error is gone after 100 ms
 constexpr double deepest_pin = 0.008;       // m: no pinned point sinks further
-constexpr double deepest = 0.0088;          // m: nor any point under the root that follows
+constexpr double deepest_freely = 0.0088;   // m: nor any point under the root that follows
 constexpr double give = 0.005;              // m: deeper than that the ground pushes it out by half
 constexpr double deep_still = 0.007;        // m: less is no longer sunk
 constexpr double deepest_gently = 0.05;     // m: where legs bend instead
@@ -265,8 +265,8 @@ void RootMotion::stay_above_ground() noexcept {
   sunk_ = gentle_ > 0 || (sunk_ && low > deep_still);
   if (gentle_ < 1 && low > give)
     position_.y() += (1 - gentle_) * (sunk_ ? 0.1 : 0.5) * (low - give);
-  position_.y() =
-      std::max(position_.y(), -static_cast<double>(lowest_) - (sunk_ ? deepest_gently : deepest));
+  position_.y() = std::max(
+      position_.y(), -static_cast<double>(lowest_) - (sunk_ ? deepest_gently : deepest_freely));
 }
 
 float RootMotion::share_of(Foot foot) const noexcept {
