@@ -33,10 +33,10 @@ StyledWalkPlan plan_of(const SynthOptions& options) {
   if (options.engine == "step" && (options.variation || options.exaggeration || options.seed))
     throw UsageError("--variation, --exaggeration and --seed go with --engine style");
   StyledWalkPlan plan;
-  plan.mix = options.style.empty() ? mix_said(options.mix, "--mix")
+  plan.mix = options.style.empty() ? parse_mix(options.mix, "--mix")
                                    : std::vector<StyleShare>{{options.style, 1}};
   for (const std::string& change : options.changes)
-    plan.changes.push_back(change_said(change, "--then"));
+    plan.changes.push_back(parse_change(change, "--then"));
   std::stable_sort(plan.changes.begin(), plan.changes.end(),
                    [](const auto& a, const auto& b) { return a.seconds < b.seconds; });
   plan.variation = options.variation.value_or(1);

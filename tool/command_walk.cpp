@@ -24,7 +24,7 @@ struct WalkOptionsSaid {
 };
 
 SpeedWalkPlan plan_of(const WalkOptionsSaid& options) {
-  const std::vector<double> speeds = speeds_said(options.speed, ':', "--speed");
+  const std::vector<double> speeds = parse_speeds(options.speed, ':', "--speed");
   if (speeds.size() > 2)
     throw UsageError("--speed " + options.speed + ": expected one speed or FROM:TO");
   SpeedWalkPlan plan;
