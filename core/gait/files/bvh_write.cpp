@@ -1,7 +1,6 @@
 #include <array>
 #include <charconv>
 #include <cmath>
-#include <fstream>
 
 #include "gait/error.h"
 #include "gait/files/bvh.h"

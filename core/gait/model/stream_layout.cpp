@@ -1,7 +1,6 @@
 #include "gait/model/stream_layout.h"
 
 #include <algorithm>
-#include <cmath>
 #include <numeric>
 
 #include "gait/motion/finite.h"

@@ -21,8 +21,9 @@ Scalar smoothstep(Scalar from, Scalar until, Scalar x) noexcept {
 
 // Gain of a first-order low pass: the share of the way to its input that it covers in `period`,
 // 1 - exp(-period / time_constant). Both in seconds.
-inline float first_order_gain(double period, double time_constant) noexcept {
-  return static_cast<float>(-std::expm1(-period / time_constant));
+template <typename Scalar>
+float first_order_gain(Scalar period, Scalar time_constant) noexcept {
+  return static_cast<float>(1 - std::exp(-period / time_constant));
 }
 
 }  // namespace gait

@@ -1,7 +1,6 @@
 #include "gait/play/body/body_assembly.h"
 
 #include <algorithm>
-#include <cmath>
 
 #include "gait/motion/finite.h"
 

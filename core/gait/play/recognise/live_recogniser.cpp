@@ -1,7 +1,5 @@
 #include "gait/play/recognise/live_recogniser.h"
 
-#include <cmath>
-
 #include "gait/motion/smoothing.h"
 
 namespace gait {
