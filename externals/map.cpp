@@ -60,8 +60,7 @@ class Map final : public ModelPlayer<Mapping> {
     set(arguments, std::move(bias));
   }
   void spread(const Arguments& arguments) {
-    arguments.expect_count(1);
-    const double spread = arguments.number(0, 0, 1000);
+    const double spread = arguments.only().number(0, 0, 1000);
     if (spread == 0) arguments.fail_at(0, "a number above 0");
     set(arguments, {Setting::spread, "", {static_cast<float>(spread)}});
   }

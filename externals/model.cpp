@@ -69,8 +69,7 @@ class ModelBox final : public ModelOwner {
   }
 
   void get(const Arguments& arguments) {
-    arguments.expect_count(1);
-    const std::string what = arguments.symbol(0);
+    const std::string what = arguments.only().symbol(0);
     for (const char* known : questions)
       if (what == known) {
         if (!model()) arguments.fail("there is no model yet");

@@ -62,8 +62,7 @@ class Synth final : public ModelPlayer<Synthesiser> {
   }
 
   void stream(const Arguments& arguments) {
-    arguments.expect_count(1);
-    const bool flows = arguments.flag(0);
+    const bool flows = arguments.only().flag(0);
     out_.add(arguments.atoms()).send("stream");
     if (flows || !fed_) return;
     flows_ = false;
@@ -71,8 +70,7 @@ class Synth final : public ModelPlayer<Synthesiser> {
     run();
   }
   void walking(const Arguments& arguments) {
-    arguments.expect_count(1);
-    walking_ = arguments.flag(0);
+    walking_ = arguments.only().flag(0);
     if (playing()) playing()->set_walking(walking_);
     out_.add(arguments.atoms()).send("walking");
   }
@@ -92,8 +90,7 @@ class Synth final : public ModelPlayer<Synthesiser> {
     go_on();
   }
   void advance(const Arguments& arguments) {
-    arguments.expect_count(1);
-    const double seconds = arguments.number(0, 0, longest_advance);
+    const double seconds = arguments.only().number(0, 0, longest_advance);
     if (!ready_for_frame()) return;
     flows_ = false;
     const double period = 1 / model()->model->frame_rate;
@@ -105,8 +102,7 @@ class Synth final : public ModelPlayer<Synthesiser> {
   void stop(const Arguments&) { start_or_stop(false); }
   // 1 and 0 start and stop; other numbers are labels.
   void number(const Arguments& arguments) {
-    arguments.expect_count(1);
-    const double value = arguments.number(0);
+    const double value = arguments.only().number(0);
     if (value == 0 || value == 1)
       start_or_stop(value == 1);
     else

@@ -15,7 +15,7 @@ namespace gait::pd {
 
 namespace {
 
-constexpr double falling_in = 2;  // seconds: for as long as `place` is told with a stream's frames
+constexpr double falling_in = 2;  // seconds: so long `place` goes out with a new stream's frames
 
 // What plays a model here.
 struct Recognising {
@@ -196,7 +196,7 @@ class Viterbi final : public ModelPlayer<Recognising> {
     if (!streaming_) {
       streaming_ = true;
       told_places_ = 0;
-      step_ = style_ = -1;  // what begins is told even if it is what ended
+      step_ = style_ = -1;  // the first step and style go out even if they are the last ones
       stop_.cancel();
       tell(true, "stream");
     }
@@ -243,7 +243,7 @@ class Viterbi final : public ModelPlayer<Recognising> {
     }
     info_.add(decision.cadence).send("cadence");
     info_.add(decision.phase).send("phase");
-    // Who walks alone falls in step with a stream that begins, before going over to it.
+    // A walk by itself falls in step with a new stream before it changes over to it.
     if (told_places_ < falling_in * learnt.frame_rate) {
       ++told_places_;
       message_.add(decision.phase).add(decision.cadence).add(styles).send("place");
@@ -287,7 +287,7 @@ class Viterbi final : public ModelPlayer<Recognising> {
   bool streaming_ = false, walking_ = true;
   int told_places_ = 0;  // since the stream began
   static constexpr int nothing_taught = -2;
-  int step_ = -1, style_ = -1;  // as told last
+  int step_ = -1, style_ = -1;  // sent last
   Ticker lost_{[this] { lost(); }};
   Ticker stop_{[this] { signals_.clock().set_walking(false); }};
 };

@@ -26,7 +26,7 @@ class Arguments {
   bool is_symbol(int i) const { return i < size() && atoms_[i].a_type == A_SYMBOL; }
   // A box's argument such as `-poly`.
   bool is_flag(int i) const { return is_symbol(i) && *atoms_[i].a_w.w_symbol->s_name == '-'; }
-  // Whether there is an argument that is no flag.
+  // Whether argument `i` is there and no flag.
   bool is_word(int i) const { return i < size() && !is_flag(i); }
   // Raw, for frames: 0 when it is no number.
   t_float raw(int i) const { return is_number(i) ? atoms_[i].a_w.w_float : 0; }
@@ -38,6 +38,11 @@ class Arguments {
   std::string symbol(int i) const;  // a symbol
   std::string text(int i) const;    // a symbol, or a number as it is written: labels may be either
   void expect_count(int count) const;
+  // These arguments, which must be one: only().number(0).
+  const Arguments& only() const {
+    expect_count(1);
+    return *this;
+  }
   void expect_count(int least, int most) const;
 
   // Frames: whether these are exactly values.size() numbers; then they are copied. Never throws.

@@ -6,6 +6,8 @@
 
 namespace gait::pd {
 
+inline constexpr int most_voices = 64;
+
 class VoiceMessage {
  public:
   // `number`: of the performer, -1: the box has only one.
