@@ -44,7 +44,7 @@ void BvhVoice::take(const SharedModel& model) {
     player_->set_loop(loop_begin_, loop_end_);
   else
     player_->set_loop(loop_values_ == 1);
-  // What was recorded lives on with a body of as many joints; files are read again for the body.
+  // A recording is kept when the new body has as many joints; files are read again for the body.
   if (recorded_ && !player_->set_motion(recorded_)) recorded_ = nullptr;
   if (!recorded_) {
     player_->set_motion(opened_);
@@ -221,7 +221,7 @@ void BvhVoice::record(const Arguments& arguments) {
 void BvhVoice::clear(const Arguments& arguments) {
   arguments.expect_count(0);
   if (recorder_) recorder_->clear();
-  ++loads_;  // a recording that is being made a clip is forgotten as well
+  ++loads_;  // drops a recording that is being made a clip, too
   if (!recorded_) return;
   recorded_ = nullptr;
   if (opened_ && player_)

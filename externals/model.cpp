@@ -161,11 +161,8 @@ class ModelBox final : public ModelOwner {
 void setup_model() {
   Class<ModelBox>("gait.model")
       .bang<&ModelBox::bang>()
-      .message<&ModelBox::read>("read")
-      .message<&ModelBox::callback>("callback")
-      .message<&ModelBox::reload>("reload")
-      .message<&ModelBox::write>("write")
-      .message<&ModelBox::get>("get")
+      .messages<&ModelBox::read, &ModelBox::callback, &ModelBox::reload, &ModelBox::write,
+                &ModelBox::get>({"read", "callback", "reload", "write", "get"})
       .common()
       .refuse_others();
 }

@@ -174,13 +174,8 @@ class Pca final : public ModelPlayer<Walk> {
 
 void setup_pca() {
   Class<Pca>("gait.pca")
-      .bang<&Pca::bang>()
-      .list<&Pca::number>()
-      .message<&Pca::advance>("advance")
-      .message<&Pca::start>("start")
-      .message<&Pca::stop>("stop")
-      .message<&Pca::phase>("phase")
-      .message<&Pca::turn>("turn")
+      .walker()
+      .messages<&Pca::phase, &Pca::turn>({"phase", "turn"})
       .common()
       .anything<&Pca::setting>();
 }

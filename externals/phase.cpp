@@ -70,12 +70,8 @@ class Phase {
 
 void setup_phase() {
   Class<Phase>("gait.phase~")
-      .message<&Phase::phase>("phase")
-      .message<&Phase::cadence>("cadence")
-      .message<&Phase::contact>("contact")
-      .message<&Phase::walking>("walking")
-      .message<&Phase::pull>("pull")
-      .message<&Phase::tap>("tap")
+      .messages<&Phase::phase, &Phase::cadence, &Phase::contact, &Phase::walking, &Phase::pull,
+                &Phase::tap>({"phase", "cadence", "contact", "walking", "pull", "tap"})
       .common()
       .refuse_others()
       .dsp();

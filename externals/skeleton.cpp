@@ -161,11 +161,8 @@ class Skeleton final : public ModelPlayer<BodyStage> {
 
 void setup_skeleton() {
   Class<Skeleton>("gait.skeleton")
-      .message<&Skeleton::out>("out")
-      .message<&Skeleton::pose>("pose")
-      .message<&Skeleton::root>("root")
-      .message<&Skeleton::stream>("stream")
-      .message<&Skeleton::resend>("resend")
+      .messages<&Skeleton::out, &Skeleton::pose, &Skeleton::root, &Skeleton::stream,
+                &Skeleton::resend>({"out", "pose", "root", "stream", "resend"})
       .common()
       .anything<&Skeleton::setting>();
 }

@@ -41,8 +41,7 @@ class Synth final : public ModelPlayer<Synthesiser> {
     const bool lag_fits = gauss_[0] >= 0 && gauss_[0] <= longest_lag;
     if (!lag_fits || !playing()->fits(means, variances)) {
       slow_error().say([&] {
-        return std::string() +
-               "gauss: expected a lag, finite means and positive variances of what moves";
+        return "gauss: expected a lag, finite means and positive variances of what moves";
       });
       return;
     }
@@ -256,16 +255,9 @@ class Synth final : public ModelPlayer<Synthesiser> {
 
 void setup_synth() {
   Class<Synth>("gait.synth")
-      .bang<&Synth::bang>()
-      .list<&Synth::number>()
-      .message<&Synth::gauss>("gauss")
-      .message<&Synth::stream>("stream")
-      .message<&Synth::walking>("walking")
-      .message<&Synth::place>("place")
-      .message<&Synth::advance>("advance")
-      .message<&Synth::start>("start")
-      .message<&Synth::stop>("stop")
-      .message<&Synth::resend>("resend")
+      .walker()
+      .messages<&Synth::gauss, &Synth::stream, &Synth::walking, &Synth::place, &Synth::resend>(
+          {"gauss", "stream", "walking", "place", "resend"})
       .common()
       .anything<&Synth::setting>();
 }

@@ -267,15 +267,9 @@ void setup_train() {
   Class<Train>("gait.train")
       .message<&Train::in>("in")
       .list<&Train::in>()
-      .message<&Train::pose>("pose")
-      .message<&Train::record>("record")
-      .message<&Train::stop>("stop")
-      .message<&Train::add>("add")
-      .message<&Train::remove>("remove")
-      .message<&Train::undo>("undo")
-      .message<&Train::train>("train")
-      .message<&Train::cancel>("cancel")
-      .message<&Train::write>("write")
+      .messages<&Train::pose, &Train::record, &Train::stop, &Train::add, &Train::remove,
+                &Train::undo, &Train::train, &Train::cancel, &Train::write>(
+          {"pose", "record", "stop", "add", "remove", "undo", "train", "cancel", "write"})
       .common()
       .refuse_others();
 }

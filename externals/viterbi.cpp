@@ -200,11 +200,11 @@ class Viterbi final : public ModelPlayer<Recognising> {
       stop_.cancel();
       tell(true, "stream");
     }
-    // What is sent may come back and change what plays here.
+    // A message sent may come back and change the model here: then no more frames are sent.
     const std::shared_ptr<Recognising> now = playing();
     while (now == playing() && next(now->live)) decided(*now);
   }
-  // What it costs is counted, not what others do with what is sent.
+  // Measures the recogniser's time, without that of the objects which receive its messages.
   bool next(LiveRecogniser& live) {
     Perf::Frame frame(perf());
     const bool made = live.next();
@@ -296,22 +296,16 @@ class Viterbi final : public ModelPlayer<Recognising> {
 
 void setup_viterbi() {
   Class<Viterbi>("gait.viterbi~", multichannel_class)
-      .message<&Viterbi::in>("in")
-      .message<&Viterbi::pose>("pose")
-      .message<&Viterbi::single<&set_joint>>("joint")
-      .message<&Viterbi::single<&set_quaternion>>("quat")
-      .message<&Viterbi::single<&set_euler>>("euler")
+      .messages<&Viterbi::in, &Viterbi::pose, &Viterbi::single<&set_joint>,
+                &Viterbi::single<&set_quaternion>, &Viterbi::single<&set_euler>>(
+          {"in", "pose", "joint", "quat", "euler"})
       .bang<&Viterbi::bang>()
       .list<&Viterbi::list>()
-      .message<&Viterbi::decoder>("decoder")
-      .message<&Viterbi::mask>("mask")
-      .message<&Viterbi::set<&ViterbiSetting::rate>>("rate")
-      .message<&Viterbi::set<&ViterbiSetting::memory>>("memory")
-      .message<&Viterbi::set<&ViterbiSetting::margin>>("margin")
-      .message<&Viterbi::set<&ViterbiSetting::hold>>("hold")
-      .message<&Viterbi::set<&ViterbiSetting::timeout>>("timeout")
-      .message<&Viterbi::set<&ViterbiSetting::on_lost>>("onlost")
-      .message<&Viterbi::resend>("resend")
+      .messages<&Viterbi::decoder, &Viterbi::mask, &Viterbi::set<&ViterbiSetting::rate>,
+                &Viterbi::set<&ViterbiSetting::memory>, &Viterbi::set<&ViterbiSetting::margin>,
+                &Viterbi::set<&ViterbiSetting::hold>, &Viterbi::set<&ViterbiSetting::timeout>,
+                &Viterbi::set<&ViterbiSetting::on_lost>, &Viterbi::resend>(
+          {"decoder", "mask", "rate", "memory", "margin", "hold", "timeout", "onlost", "resend"})
       .common()
       .dsp();
 }

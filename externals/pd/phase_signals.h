@@ -24,11 +24,11 @@ class PhaseSignals {
   PhaseSignals(Box& box, std::function<void(int step)> contact);
 
   PhaseClock& clock() { return clock_; }
-  // Another clock (of another model), which goes on where the last one was.
+  // Changes to another model's clock, at the phase of the one before.
   void replace(const PhaseClockSettings& settings);
 
-  // With every frame: while no DSP runs, the clock goes on by what time has passed, so that
-  // contacts go out without DSP too.
+  // To be called with every frame: while no DSP runs, this advances the clock by the time passed,
+  // so that contacts go out without DSP too.
   void keep_going();
 
   // From the box's dsp method; `first`: index of phase~ among the signals.
