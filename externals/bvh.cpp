@@ -63,8 +63,7 @@ class Bvh final : public ModelUser {
         one(voice, rest);
       return;
     }
-    arguments.expect_count(1);
-    const bool on = arguments.flag(0);
+    const bool on = arguments.only().flag(0);
     for (const auto& voice : voices_) voice->run(on);
   }
   void anything(const Arguments& arguments) {

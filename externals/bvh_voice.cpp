@@ -44,7 +44,7 @@ void BvhVoice::take(const SharedModel& model) {
     player_->set_loop(loop_begin_, loop_end_);
   else
     player_->set_loop(loop_values_ == 1);
-  // What was recorded lives on with a body of as many joints; files are read again for the body.
+  // A recording is kept when the new body has as many joints; files are read again for the body.
   if (recorded_ && !player_->set_motion(recorded_)) recorded_ = nullptr;
   if (!recorded_) {
     player_->set_motion(opened_);
@@ -154,8 +154,7 @@ bool BvhVoice::message(const Arguments& arguments) {
   } else if (selector == "rate") {
     set_rate(arguments);
   } else if (selector == "goto") {
-    arguments.expect_count(1);
-    go_to(arguments.number(0, 0, longest_loop));
+    go_to(arguments.only().number(0, 0, longest_loop));
   } else if (selector == "record") {
     record(arguments);
   } else if (selector == "clear") {
@@ -176,8 +175,7 @@ bool BvhVoice::message(const Arguments& arguments) {
 
 // Finds the file on Pd's thread, which owns Pd's search path; the worker reads and checks it.
 void BvhVoice::open(const Arguments& arguments) {
-  arguments.expect_count(1);
-  std::string name = arguments.symbol(0);
+  std::string name = arguments.only().symbol(0);
   if (!names_demo_motion(name)) {
     const auto path = find_file(around_.canvas, name);
     if (!path) arguments.fail(no_file(name));
@@ -203,14 +201,12 @@ void BvhVoice::loop(const Arguments& arguments) {
 }
 
 void BvhVoice::set_rate(const Arguments& arguments) {
-  arguments.expect_count(1);
-  speed_ = arguments.number(0, -fastest, fastest);
+  speed_ = arguments.only().number(0, -fastest, fastest);
   if (player_) player_->set_speed(speed_);
 }
 
 void BvhVoice::record(const Arguments& arguments) {
-  arguments.expect_count(1);
-  const bool on = arguments.flag(0);
+  const bool on = arguments.only().flag(0);
   if (on == (recorder_ && recorder_->recording())) return;
   if (!recorder_) arguments.fail("expected after the model is there");
   if (on) return recorder_->start();
@@ -225,7 +221,7 @@ void BvhVoice::record(const Arguments& arguments) {
 void BvhVoice::clear(const Arguments& arguments) {
   arguments.expect_count(0);
   if (recorder_) recorder_->clear();
-  ++loads_;  // a recording that is being made a clip is forgotten as well
+  ++loads_;  // drops a recording that is being made a clip, too
   if (!recorded_) return;
   recorded_ = nullptr;
   if (opened_ && player_)

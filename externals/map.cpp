@@ -60,8 +60,7 @@ class Map final : public ModelPlayer<Mapping> {
     set(arguments, std::move(bias));
   }
   void spread(const Arguments& arguments) {
-    arguments.expect_count(1);
-    const double spread = arguments.number(0, 0, 1000);
+    const double spread = arguments.only().number(0, 0, 1000);
     if (spread == 0) arguments.fail_at(0, "a number above 0");
     set(arguments, {Setting::spread, "", {static_cast<float>(spread)}});
   }
@@ -122,7 +121,7 @@ class Map final : public ModelPlayer<Mapping> {
     gauss_.reserve(2 + 6 * model->model->output.values);
   }
 
-  // Null, or what was expected of the message.
+  // Null, or why the message does not fit.
   const char* map(const Arguments& arguments) noexcept {
     Perf::Frame frame(perf());
     const auto count = static_cast<std::size_t>(arguments.size());
@@ -189,13 +188,8 @@ class Map final : public ModelPlayer<Mapping> {
 
 void setup_map() {
   Class<Map>("gait.map")
-      .message<&Map::obs>("obs")
-      .message<&Map::strength>("strength")
-      .message<&Map::bias>("bias")
-      .message<&Map::spread>("spread")
-      .message<&Map::through>("stream")
-      .message<&Map::through>("walking")
-      .message<&Map::through>("place")
+      .messages<&Map::obs, &Map::strength, &Map::bias, &Map::spread, &Map::through, &Map::through,
+                &Map::through>({"obs", "strength", "bias", "spread", "stream", "walking", "place"})
       .common();
 }
 

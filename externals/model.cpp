@@ -69,8 +69,7 @@ class ModelBox final : public ModelOwner {
   }
 
   void get(const Arguments& arguments) {
-    arguments.expect_count(1);
-    const std::string what = arguments.symbol(0);
+    const std::string what = arguments.only().symbol(0);
     for (const char* known : questions)
       if (what == known) {
         if (!model()) arguments.fail("there is no model yet");
@@ -162,11 +161,8 @@ class ModelBox final : public ModelOwner {
 void setup_model() {
   Class<ModelBox>("gait.model")
       .bang<&ModelBox::bang>()
-      .message<&ModelBox::read>("read")
-      .message<&ModelBox::callback>("callback")
-      .message<&ModelBox::reload>("reload")
-      .message<&ModelBox::write>("write")
-      .message<&ModelBox::get>("get")
+      .messages<&ModelBox::read, &ModelBox::callback, &ModelBox::reload, &ModelBox::write,
+                &ModelBox::get>({"read", "callback", "reload", "write", "get"})
       .common()
       .refuse_others();
 }

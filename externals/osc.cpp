@@ -187,8 +187,7 @@ class Osc final : public ModelUser, osc::FrameSink {
 
   // Of all performers, or of the one with the number `only`.
   void calibrate(const Arguments& arguments, int only) {
-    arguments.expect_count(1);
-    const std::string pose = arguments.symbol(0);
+    const std::string pose = arguments.only().symbol(0);
     if (pose != "t" && pose != "i") arguments.fail_at(0, "t or i");
     bool found = false;
     for (int i = 0; i < static_cast<int>(voices_.size()); ++i)
@@ -200,8 +199,7 @@ class Osc final : public ModelUser, osc::FrameSink {
   }
 
   void set(const Arguments& arguments, double& setting, double least, double most) {
-    arguments.expect_count(1);
-    setting = arguments.number(0, least, most);
+    setting = arguments.only().number(0, least, most);
     for (const auto& voice : voices_) voice->set(settings_);
   }
 
@@ -281,7 +279,7 @@ class Osc final : public ModelUser, osc::FrameSink {
 
   Outlet in_, pose_, info_;
   OscReceivers receivers_;
-  int count_ = 0;  // performers told apart, 0: one without a number
+  int count_ = 0;  // performers of -poly, 0: one without a number
   OscSettings settings_;
   osc::ReceiverSettings listening_;
   std::unique_ptr<osc::Receiver> receiver_;

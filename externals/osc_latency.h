@@ -28,7 +28,7 @@ class Latency {
 
  private:
   static constexpr double bin = 0.02;  // ms
-  static constexpr int bins = 5000;    // to 100 ms; what is later counts as that
+  static constexpr int bins = 5000;    // to 100 ms; the last one counts all later frames
 
   // The upper edge of the bin that so many of all frames reach; 0 without frames.
   double percentile(double share) const noexcept {

@@ -45,27 +45,21 @@ class Pca final : public ModelPlayer<Walk> {
     if (ready_for_frame()) step(1 / model()->model->frame_rate);
   }
   void advance(const Arguments& arguments) {
-    arguments.expect_count(1);
-    const double seconds = arguments.number(0, 0, longest_jump);
+    const double seconds = arguments.only().number(0, 0, longest_jump);
     if (ready_for_frame()) step(seconds);
   }
   void start(const Arguments&) { run(true); }
   void stop(const Arguments&) { run(false); }
-  void number(const Arguments& arguments) {
-    arguments.expect_count(1);
-    run(arguments.flag(0));
-  }
+  void number(const Arguments& arguments) { run(arguments.only().flag(0)); }
   void phase(const Arguments& arguments) {
-    arguments.expect_count(1);
-    const double phase = arguments.number(0);
+    const double phase = arguments.only().number(0);
     if (!ready_for_frame()) return;
     walking_->scrub(phase - std::floor(phase));
     show();
   }
   // The path turns. [gait.skeleton] turns it, which places the walk in the world.
   void turn(const Arguments& arguments) {
-    arguments.expect_count(1);
-    turn_ = arguments.number(0, -10, 10);
+    turn_ = arguments.only().number(0, -10, 10);
     pose_.add(turn_).send("heading");
   }
   void reset(const Arguments&) {
@@ -91,8 +85,7 @@ class Pca final : public ModelPlayer<Walk> {
                  std::to_string(arguments.size());
         });
     } else if (arguments.selector() == "contact") {
-      arguments.expect_count(1);
-      const std::string foot = arguments.symbol(0);
+      const std::string foot = arguments.only().symbol(0);
       if (foot != "right" && foot != "left") arguments.fail_at(0, "right or left");
       if (playing() && playing()->projector.contact(foot == "right" ? Foot::right : Foot::left))
         info_.add(playing()->projector.scores()).send("projected");
@@ -181,13 +174,8 @@ class Pca final : public ModelPlayer<Walk> {
 
 void setup_pca() {
   Class<Pca>("gait.pca")
-      .bang<&Pca::bang>()
-      .list<&Pca::number>()
-      .message<&Pca::advance>("advance")
-      .message<&Pca::start>("start")
-      .message<&Pca::stop>("stop")
-      .message<&Pca::phase>("phase")
-      .message<&Pca::turn>("turn")
+      .walker()
+      .messages<&Pca::phase, &Pca::turn>({"phase", "turn"})
       .common()
       .anything<&Pca::setting>();
 }

@@ -20,15 +20,13 @@ class SpeedWalking final : public WalkingBy<SpeedPlaying> {
   bool set(const Arguments& arguments) override {
     const auto selector = arguments.selector();
     if (selector == "speed") {
-      arguments.expect_count(1);
-      speed_ = arguments.number(0);
+      speed_ = arguments.only().number(0);
       if (playing_ &&
           playing_->walker.set_speed(static_cast<float>(speed_)) == ControlResult::clamped)
         say_clamped(arguments, "0 to " + number_text(10 / 3.6) +
                                    " m/s (10 km/h), less on legs shorter than 0.73 m");
     } else if (selector == "leg") {
-      arguments.expect_count(1);
-      const double leg = arguments.number(0, 0, 100);
+      const double leg = arguments.only().number(0, 0, 100);
       leg_ = static_cast<float>(leg);
       if (!playing_) return true;
       if (leg_ == 0)
@@ -36,14 +34,12 @@ class SpeedWalking final : public WalkingBy<SpeedPlaying> {
       else if (playing_->walker.set_leg_length(leg_) == ControlResult::clamped)
         say_clamped(arguments, "0.3 to 1.5 m; 0: the subject's own");
     } else if (selector == "subject") {
-      arguments.expect_count(1);
-      const std::string subject = arguments.text(0);
+      const std::string subject = arguments.only().text(0);
       if (playing_ && playing_->walker.set_subject(subject) == ControlResult::refused)
         arguments.fail(no_subject(playing_->walker, subject, model_->model->name));
       subject_ = subject;
     } else if (selector == "law") {
-      arguments.expect_count(1);
-      const std::string name = arguments.symbol(0);
+      const std::string name = arguments.only().symbol(0);
       for (const auto& [word, law] : laws)
         if (name == word) {
           law_ = law;
@@ -52,8 +48,7 @@ class SpeedWalking final : public WalkingBy<SpeedPlaying> {
         }
       arguments.fail_at(0, "fitted, inman or feet");
     } else if (selector == "cadence") {
-      arguments.expect_count(1);
-      cadence_ = static_cast<float>(arguments.number(0, 0, 8));
+      cadence_ = static_cast<float>(arguments.only().number(0, 0, 8));
       if (playing_) playing_->walker.set_cadence(cadence_);
     } else {
       return false;

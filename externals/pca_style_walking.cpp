@@ -113,24 +113,19 @@ class StyleWalking final : public WalkingBy<StylePlaying> {
   bool set_number(const Arguments& arguments) {
     const auto selector = arguments.selector();
     if (selector == "variation") {
-      arguments.expect_count(1);
-      settings_.variation = static_cast<float>(arguments.number(0, 0, 2));
+      settings_.variation = static_cast<float>(arguments.only().number(0, 0, 2));
       if (playing_) playing_->walker.set_variation(settings_.variation);
     } else if (selector == "exaggeration") {
-      arguments.expect_count(1);
-      settings_.exaggeration = static_cast<float>(arguments.number(0, -1, 3));
+      settings_.exaggeration = static_cast<float>(arguments.only().number(0, -1, 3));
       if (playing_) playing_->walker.set_exaggeration(settings_.exaggeration);
     } else if (selector == "neutral") {
-      arguments.expect_count(1);
-      settings_.through_neutral = arguments.flag(0);
+      settings_.through_neutral = arguments.only().flag(0);
       if (playing_) playing_->walker.set_through_neutral(settings_.through_neutral);
     } else if (selector == "cadence") {
-      arguments.expect_count(1);
-      settings_.cadence = static_cast<float>(arguments.number(0, 0, 8));
+      settings_.cadence = static_cast<float>(arguments.only().number(0, 0, 8));
       if (playing_) playing_->walker.set_cadence(settings_.cadence);
     } else if (selector == "seed") {
-      arguments.expect_count(1);
-      settings_.seed = static_cast<std::uint64_t>(arguments.integer(0, 0, 16777216));
+      settings_.seed = static_cast<std::uint64_t>(arguments.only().integer(0, 0, 16777216));
       if (playing_) playing_->walker.restart(settings_.seed);
     } else {
       return false;

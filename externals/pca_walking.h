@@ -76,7 +76,7 @@ class WalkingBy : public CycleWalking {
  protected:
   using Make = std::function<std::shared_ptr<Playing>(const SharedModel& model)>;
   virtual Make make() const = 0;
-  // Gives what was made the settings as they are now. Throws Error when they do not fit the model.
+  // Gives `fresh` the settings as they are now. Throws Error when they do not fit the model.
   virtual void fit(Playing& fresh, const Model& model) const = 0;
 
   // Both null before the model is there.

@@ -16,29 +16,24 @@ class Phase {
   }
 
   void phase(const Arguments& arguments) {
-    arguments.expect_count(1);
-    const double phase = arguments.number(0);
+    const double phase = arguments.only().number(0);
     clock().observe(phase - std::floor(phase));
   }
   void cadence(const Arguments& arguments) {
-    arguments.expect_count(1);
-    cadence_ = arguments.number(0, 0.1, 20);
+    cadence_ = arguments.only().number(0, 0.1, 20);
     clock().set_cadence(cadence_);
   }
   void contact(const Arguments& arguments) {
-    arguments.expect_count(1);
-    const std::string foot = arguments.symbol(0);
+    const std::string foot = arguments.only().symbol(0);
     if (foot != "right" && foot != "left") arguments.fail_at(0, "right or left");
     clock().observe_contact(foot == "right" ? 0 : 1);
   }
   void walking(const Arguments& arguments) {
-    arguments.expect_count(1);
-    walking_ = arguments.flag(0);
+    walking_ = arguments.only().flag(0);
     clock().set_walking(walking_);
   }
   void pull(const Arguments& arguments) {
-    arguments.expect_count(1);
-    pull_ = arguments.number(0, 0, 10);
+    pull_ = arguments.only().number(0, 0, 10);
     clock().set_pull(pull_);
   }
   void tap(const Arguments&) { clock().tap(); }
@@ -75,12 +70,8 @@ class Phase {
 
 void setup_phase() {
   Class<Phase>("gait.phase~")
-      .message<&Phase::phase>("phase")
-      .message<&Phase::cadence>("cadence")
-      .message<&Phase::contact>("contact")
-      .message<&Phase::walking>("walking")
-      .message<&Phase::pull>("pull")
-      .message<&Phase::tap>("tap")
+      .messages<&Phase::phase, &Phase::cadence, &Phase::contact, &Phase::walking, &Phase::pull,
+                &Phase::tap>({"phase", "cadence", "contact", "walking", "pull", "tap"})
       .common()
       .refuse_others()
       .dsp();

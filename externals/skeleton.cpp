@@ -57,10 +57,7 @@ class Skeleton final : public ModelPlayer<BodyStage> {
     if (!settings_.take(arguments, playing().get())) arguments.fail("no such message");
   }
   // [gait.synth] passes `stream` on. Nothing has to be done: a walk by itself sends whole poses.
-  void stream(const Arguments& arguments) {
-    arguments.expect_count(1);
-    arguments.flag(0);
-  }
+  void stream(const Arguments& arguments) { arguments.only().flag(0); }
 
   void resend(const Arguments&) { send_bones(); }
   void reset(const Arguments&) {
@@ -164,11 +161,8 @@ class Skeleton final : public ModelPlayer<BodyStage> {
 
 void setup_skeleton() {
   Class<Skeleton>("gait.skeleton")
-      .message<&Skeleton::out>("out")
-      .message<&Skeleton::pose>("pose")
-      .message<&Skeleton::root>("root")
-      .message<&Skeleton::stream>("stream")
-      .message<&Skeleton::resend>("resend")
+      .messages<&Skeleton::out, &Skeleton::pose, &Skeleton::root, &Skeleton::stream,
+                &Skeleton::resend>({"out", "pose", "root", "stream", "resend"})
       .common()
       .anything<&Skeleton::setting>();
 }

@@ -28,18 +28,15 @@ bool SkeletonSetting::take(const Arguments& arguments, BodyStage* stage) {
 bool SkeletonSetting::take_number(const Arguments& arguments) {
   const auto selector = arguments.selector();
   const auto one = [&](double least, double most) {
-    arguments.expect_count(1);
-    return static_cast<float>(arguments.number(0, least, most));
+    return static_cast<float>(arguments.only().number(0, least, most));
   };
   if (selector == "root") {
-    arguments.expect_count(1);
-    const std::string from = arguments.symbol(0);
+    const std::string from = arguments.only().symbol(0);
     const auto at = std::ranges::find(roots, from);
     if (at == roots.end()) arguments.fail_at(0, "feet, keep or still");
     root_ = static_cast<RootFrom>(at - roots.begin());
   } else if (selector == "lock") {
-    arguments.expect_count(1);
-    lock_ = arguments.flag(0);
+    lock_ = arguments.only().flag(0);
   } else if (selector == "heading") {
     heading_ = one(-fastest_turn, fastest_turn);
   } else if (selector == "smooth") {
@@ -54,11 +51,9 @@ bool SkeletonSetting::take_number(const Arguments& arguments) {
           static_cast<float>(arguments.number(i, -farthest, farthest));
     place_ = place;
   } else if (selector == "delay") {
-    arguments.expect_count(1);
-    delay_ = arguments.integer(0, 0, DelayedFrames::longest_delay);
+    delay_ = arguments.only().integer(0, 0, DelayedFrames::longest_delay);
   } else if (selector == "walking") {
-    arguments.expect_count(1);
-    walking_ = arguments.flag(0);
+    walking_ = arguments.only().flag(0);
   } else {
     return false;
   }

@@ -41,8 +41,7 @@ class Synth final : public ModelPlayer<Synthesiser> {
     const bool lag_fits = gauss_[0] >= 0 && gauss_[0] <= longest_lag;
     if (!lag_fits || !playing()->fits(means, variances)) {
       slow_error().say([&] {
-        return std::string() +
-               "gauss: expected a lag, finite means and positive variances of what moves";
+        return "gauss: expected a lag, finite means and positive variances of what moves";
       });
       return;
     }
@@ -62,8 +61,7 @@ class Synth final : public ModelPlayer<Synthesiser> {
   }
 
   void stream(const Arguments& arguments) {
-    arguments.expect_count(1);
-    const bool flows = arguments.flag(0);
+    const bool flows = arguments.only().flag(0);
     out_.add(arguments.atoms()).send("stream");
     if (flows || !fed_) return;
     flows_ = false;
@@ -71,8 +69,7 @@ class Synth final : public ModelPlayer<Synthesiser> {
     run();
   }
   void walking(const Arguments& arguments) {
-    arguments.expect_count(1);
-    walking_ = arguments.flag(0);
+    walking_ = arguments.only().flag(0);
     if (playing()) playing()->set_walking(walking_);
     out_.add(arguments.atoms()).send("walking");
   }
@@ -92,8 +89,7 @@ class Synth final : public ModelPlayer<Synthesiser> {
     go_on();
   }
   void advance(const Arguments& arguments) {
-    arguments.expect_count(1);
-    const double seconds = arguments.number(0, 0, longest_advance);
+    const double seconds = arguments.only().number(0, 0, longest_advance);
     if (!ready_for_frame()) return;
     flows_ = false;
     const double period = 1 / model()->model->frame_rate;
@@ -105,8 +101,7 @@ class Synth final : public ModelPlayer<Synthesiser> {
   void stop(const Arguments&) { start_or_stop(false); }
   // 1 and 0 start and stop; other numbers are labels.
   void number(const Arguments& arguments) {
-    arguments.expect_count(1);
-    const double value = arguments.number(0);
+    const double value = arguments.only().number(0);
     if (value == 0 || value == 1)
       start_or_stop(value == 1);
     else
@@ -260,16 +255,9 @@ class Synth final : public ModelPlayer<Synthesiser> {
 
 void setup_synth() {
   Class<Synth>("gait.synth")
-      .bang<&Synth::bang>()
-      .list<&Synth::number>()
-      .message<&Synth::gauss>("gauss")
-      .message<&Synth::stream>("stream")
-      .message<&Synth::walking>("walking")
-      .message<&Synth::place>("place")
-      .message<&Synth::advance>("advance")
-      .message<&Synth::start>("start")
-      .message<&Synth::stop>("stop")
-      .message<&Synth::resend>("resend")
+      .walker()
+      .messages<&Synth::gauss, &Synth::stream, &Synth::walking, &Synth::place, &Synth::resend>(
+          {"gauss", "stream", "walking", "place", "resend"})
       .common()
       .anything<&Synth::setting>();
 }

@@ -36,17 +36,13 @@ bool SynthSetting::take_styles(const Arguments& arguments, Synthesiser* synthesi
 bool SynthSetting::take_number(const Arguments& arguments) {
   const auto selector = arguments.selector();
   if (selector == "auto") {
-    arguments.expect_count(1);
-    auto_ = arguments.flag(0);
+    auto_ = arguments.only().flag(0);
   } else if (selector == "cadence") {
-    arguments.expect_count(1);
-    cadence_ = static_cast<float>(arguments.number(0, 0, 10));
+    cadence_ = static_cast<float>(arguments.only().number(0, 0, 10));
   } else if (selector == "past") {
-    arguments.expect_count(1);
-    past_ = arguments.integer(0, 0, Synthesiser::longest_past);
+    past_ = arguments.only().integer(0, 0, Synthesiser::longest_past);
   } else if (selector == "future") {
-    arguments.expect_count(1);
-    future_ = arguments.integer(0, 0, Synthesiser::longest_future);
+    future_ = arguments.only().integer(0, 0, Synthesiser::longest_future);
   } else if (selector == "duration") {
     arguments.expect_count(2);
     const std::string what = arguments.symbol(0);
@@ -68,8 +64,7 @@ bool SynthSetting::take_number(const Arguments& arguments) {
 
 bool SynthSetting::take_word(const Arguments& arguments) {
   if (arguments.selector() == "onlost") {
-    arguments.expect_count(1);
-    const std::string what = arguments.symbol(0);
+    const std::string what = arguments.only().symbol(0);
     if (what == "walk")
       on_lost_ = OnLost::walk;
     else if (what == "hold")
@@ -79,8 +74,7 @@ bool SynthSetting::take_word(const Arguments& arguments) {
     else
       arguments.fail_at(0, "walk, hold or stop");
   } else if (arguments.selector() == "body") {
-    arguments.expect_count(1);
-    const std::string what = arguments.symbol(0);
+    const std::string what = arguments.only().symbol(0);
     if (what != "out" && what != "pose") arguments.fail_at(0, "out or pose");
     whole_body_ = what == "pose";
   } else {

@@ -65,8 +65,7 @@ class Train final : public ModelOwner {
   }
 
   void record(const Arguments& arguments) {
-    arguments.expect_count(1);
-    const std::string label = arguments.text(0);
+    const std::string label = arguments.only().text(0);
     if (recorder_->recording()) end_take();
     if (learns_walks()) {
       if (!body()) {
@@ -83,8 +82,7 @@ class Train final : public ModelOwner {
   }
 
   void add(const Arguments& arguments) {
-    arguments.expect_count(1);
-    const std::string name = arguments.symbol(0);
+    const std::string name = arguments.only().symbol(0);
     const auto path = find_file(patch(), name);
     if (!path) arguments.fail(no_file(name));
     if (learns_walks() && !body()) arguments.fail("waiting for gait-demo");
@@ -269,15 +267,9 @@ void setup_train() {
   Class<Train>("gait.train")
       .message<&Train::in>("in")
       .list<&Train::in>()
-      .message<&Train::pose>("pose")
-      .message<&Train::record>("record")
-      .message<&Train::stop>("stop")
-      .message<&Train::add>("add")
-      .message<&Train::remove>("remove")
-      .message<&Train::undo>("undo")
-      .message<&Train::train>("train")
-      .message<&Train::cancel>("cancel")
-      .message<&Train::write>("write")
+      .messages<&Train::pose, &Train::record, &Train::stop, &Train::add, &Train::remove,
+                &Train::undo, &Train::train, &Train::cancel, &Train::write>(
+          {"pose", "record", "stop", "add", "remove", "undo", "train", "cancel", "write"})
       .common()
       .refuse_others();
 }

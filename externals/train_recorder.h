@@ -1,4 +1,4 @@
-// What [gait.train] has recorded: takes in memory, and on disk as soon as each has ended.
+// Takes that [gait.train] records: in memory, and on disk as soon as each has ended.
 #pragma once
 
 #include <memory>
@@ -44,7 +44,7 @@ class TakeRecorder {
   void change(Takes next);
   void write(const std::shared_ptr<const RecordedTake>& take);
 
-  // Opens and locks it; false when somebody else has it.
+  // Opens and locks the file; false when another box or program has locked it.
   bool open_journal(const std::string& path);
 
   std::string left_behind_;

@@ -15,7 +15,7 @@ namespace gait::pd {
 
 namespace {
 
-constexpr double falling_in = 2;  // seconds: for as long as `place` is told with a stream's frames
+constexpr double falling_in = 2;  // seconds: so long `place` goes out with a new stream's frames
 
 // What plays a model here.
 struct Recognising {
@@ -196,15 +196,15 @@ class Viterbi final : public ModelPlayer<Recognising> {
     if (!streaming_) {
       streaming_ = true;
       told_places_ = 0;
-      step_ = style_ = -1;  // what begins is told even if it is what ended
+      step_ = style_ = -1;  // the first step and style go out even if they are the last ones
       stop_.cancel();
       tell(true, "stream");
     }
-    // What is sent may come back and change what plays here.
+    // A message sent may come back and change the model here: then no more frames are sent.
     const std::shared_ptr<Recognising> now = playing();
     while (now == playing() && next(now->live)) decided(*now);
   }
-  // What it costs is counted, not what others do with what is sent.
+  // Measures the recogniser's time, without that of the objects which receive its messages.
   bool next(LiveRecogniser& live) {
     Perf::Frame frame(perf());
     const bool made = live.next();
@@ -243,7 +243,7 @@ class Viterbi final : public ModelPlayer<Recognising> {
     }
     info_.add(decision.cadence).send("cadence");
     info_.add(decision.phase).send("phase");
-    // Who walks alone falls in step with a stream that begins, before going over to it.
+    // A walk by itself falls in step with a new stream before it changes over to it.
     if (told_places_ < falling_in * learnt.frame_rate) {
       ++told_places_;
       message_.add(decision.phase).add(decision.cadence).add(styles).send("place");
@@ -287,7 +287,7 @@ class Viterbi final : public ModelPlayer<Recognising> {
   bool streaming_ = false, walking_ = true;
   int told_places_ = 0;  // since the stream began
   static constexpr int nothing_taught = -2;
-  int step_ = -1, style_ = -1;  // as told last
+  int step_ = -1, style_ = -1;  // sent last
   Ticker lost_{[this] { lost(); }};
   Ticker stop_{[this] { signals_.clock().set_walking(false); }};
 };
@@ -296,22 +296,16 @@ class Viterbi final : public ModelPlayer<Recognising> {
 
 void setup_viterbi() {
   Class<Viterbi>("gait.viterbi~", multichannel_class)
-      .message<&Viterbi::in>("in")
-      .message<&Viterbi::pose>("pose")
-      .message<&Viterbi::single<&set_joint>>("joint")
-      .message<&Viterbi::single<&set_quaternion>>("quat")
-      .message<&Viterbi::single<&set_euler>>("euler")
+      .messages<&Viterbi::in, &Viterbi::pose, &Viterbi::single<&set_joint>,
+                &Viterbi::single<&set_quaternion>, &Viterbi::single<&set_euler>>(
+          {"in", "pose", "joint", "quat", "euler"})
       .bang<&Viterbi::bang>()
       .list<&Viterbi::list>()
-      .message<&Viterbi::decoder>("decoder")
-      .message<&Viterbi::mask>("mask")
-      .message<&Viterbi::set<&ViterbiSetting::rate>>("rate")
-      .message<&Viterbi::set<&ViterbiSetting::memory>>("memory")
-      .message<&Viterbi::set<&ViterbiSetting::margin>>("margin")
-      .message<&Viterbi::set<&ViterbiSetting::hold>>("hold")
-      .message<&Viterbi::set<&ViterbiSetting::timeout>>("timeout")
-      .message<&Viterbi::set<&ViterbiSetting::on_lost>>("onlost")
-      .message<&Viterbi::resend>("resend")
+      .messages<&Viterbi::decoder, &Viterbi::mask, &Viterbi::set<&ViterbiSetting::rate>,
+                &Viterbi::set<&ViterbiSetting::memory>, &Viterbi::set<&ViterbiSetting::margin>,
+                &Viterbi::set<&ViterbiSetting::hold>, &Viterbi::set<&ViterbiSetting::timeout>,
+                &Viterbi::set<&ViterbiSetting::on_lost>, &Viterbi::resend>(
+          {"decoder", "mask", "rate", "memory", "margin", "hold", "timeout", "onlost", "resend"})
       .common()
       .dsp();
 }

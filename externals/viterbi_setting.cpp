@@ -51,24 +51,19 @@ void ViterbiSetting::on_lost(const Arguments& arguments) {
 }
 
 void ViterbiSetting::rate(const Arguments& arguments) {
-  arguments.expect_count(1);
-  rate_ = arguments.number(0, 0, 1000);
+  rate_ = arguments.only().number(0, 0, 1000);
 }
 void ViterbiSetting::memory(const Arguments& arguments) {
-  arguments.expect_count(1);
-  memory_ = static_cast<float>(arguments.number(0, 0, longest));
+  memory_ = static_cast<float>(arguments.only().number(0, 0, longest));
 }
 void ViterbiSetting::margin(const Arguments& arguments) {
-  arguments.expect_count(1);
-  margin_ = static_cast<float>(arguments.number(0, 0, 1));
+  margin_ = static_cast<float>(arguments.only().number(0, 0, 1));
 }
 void ViterbiSetting::hold(const Arguments& arguments) {
-  arguments.expect_count(1);
-  hold_ = arguments.number(0, 0, longest);
+  hold_ = arguments.only().number(0, 0, longest);
 }
 void ViterbiSetting::timeout(const Arguments& arguments) {
-  arguments.expect_count(1);
-  timeout_ = arguments.number(0, 0.02, longest);
+  timeout_ = arguments.only().number(0, 0.02, longest);
 }
 
 std::vector<std::string> ViterbiSetting::forget_unknown(const Model& model) {

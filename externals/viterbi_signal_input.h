@@ -1,7 +1,7 @@
 // Frames taken from signals: one number per channel, at the model's rate, from signal inlets or
 // from one multichannel inlet.
 //
-// The audio side only copies numbers into a ring; Pd's thread is told by a clock and takes them out
+// The audio side only copies numbers into a ring; a clock then has Pd's scheduler take them out
 // with their times. Both run on one thread, one after the other. Nothing allocates while DSP runs.
 #pragma once
 
@@ -21,7 +21,7 @@ class SignalInput {
   SignalInput(Box& box, std::function<void(double time, std::span<const float> values)> frame)
       : box_(box), frame_(std::move(frame)) {}
 
-  // Makes the inlets; none without this. Of `make_multichannel` throws Error on a Pd without.
+  // Makes the inlets; none without this. make_multichannel throws Error on a Pd without them.
   void make_inlets(int count);
   void make_multichannel();
   int inlets() const { return multichannel_ ? 1 : inlets_; }
@@ -36,7 +36,7 @@ class SignalInput {
   void take(int count) noexcept;
   void tell();
 
-  static constexpr int most_waiting = 64;  // frames; more in one block are not told
+  static constexpr int most_waiting = 64;  // frames; more in one block are dropped
   Box& box_;
   std::function<void(double, std::span<const float>)> frame_;
   int inlets_ = 0;

@@ -27,13 +27,6 @@ std::string number_text(double value) {
   return text;
 }
 
-Arguments Arguments::from(int first) const {
-  Arguments rest = *this;
-  rest.atoms_ =
-      atoms_.subspan(std::min<std::size_t>(static_cast<std::size_t>(first), atoms_.size()));
-  return rest;
-}
-
 void Arguments::fail(const std::string& expected) const {
   throw Error(std::string(object_) + ": " + (*selector_ ? std::string(selector_) + ": " : "") +
               expected);

@@ -19,17 +19,13 @@ class Arguments {
   std::string_view selector() const { return selector_; }
   int size() const { return static_cast<int>(atoms_.size()); }
   std::span<const t_atom> atoms() const { return atoms_; }
-  // Those from `first` on, of the same message.
-  Arguments from(int first) const;
 
   bool is_number(int i) const { return i < size() && atoms_[i].a_type == A_FLOAT; }
   bool is_symbol(int i) const { return i < size() && atoms_[i].a_type == A_SYMBOL; }
   // A box's argument such as `-poly`.
   bool is_flag(int i) const { return is_symbol(i) && *atoms_[i].a_w.w_symbol->s_name == '-'; }
-  // Whether there is an argument that is no flag.
+  // Whether argument `i` is there and no flag.
   bool is_word(int i) const { return i < size() && !is_flag(i); }
-  // Raw, for frames: 0 when it is no number.
-  t_float raw(int i) const { return is_number(i) ? atoms_[i].a_w.w_float : 0; }
 
   double number(int i) const;                             // finite
   double number(int i, double least, double most) const;  // within
@@ -38,6 +34,11 @@ class Arguments {
   std::string symbol(int i) const;  // a symbol
   std::string text(int i) const;    // a symbol, or a number as it is written: labels may be either
   void expect_count(int count) const;
+  // These arguments, which must be one: only().number(0).
+  const Arguments& only() const {
+    expect_count(1);
+    return *this;
+  }
   void expect_count(int least, int most) const;
 
   // Frames: whether these are exactly values.size() numbers; then they are copied. Never throws.

@@ -74,6 +74,19 @@ class Class {
                       A_NULL);
     return *this;
   }
+  // Several messages, each with its selector in the same order.
+  template <auto... Methods>
+  Class& messages(const char* const (&selectors)[sizeof...(Methods)]) {
+    int i = 0;
+    (message<Methods>(selectors[i++]), ...);
+    return *this;
+  }
+  // The messages that drive a walk: bang, 1 and 0, advance, start and stop.
+  Class& walker() {
+    return bang<&T::bang>()
+        .template list<&T::number>()
+        .template messages<&T::advance, &T::start, &T::stop>({"advance", "start", "stop"});
+  }
   // A bang, a list without a selector (a float too), a symbol: they arrive as their own selectors.
   template <auto Method>
   Class& bang() {
@@ -104,10 +117,8 @@ class Class {
   }
   // The messages that every object has: reset, dump, perf and print.
   Class& common() {
-    return message<&T::reset>("reset")
-        .template message<&T::dump>("dump")
-        .template message<&T::report_perf>("perf")
-        .template message<&T::print>("print");
+    return messages<&T::reset, &T::dump, &T::report_perf, &T::print>(
+        {"reset", "dump", "perf", "print"});
   }
 
  private:

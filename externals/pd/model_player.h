@@ -28,7 +28,7 @@ class ModelPlayer : public ModelUser {
   // it may throw Error.
   using Make = std::function<std::shared_ptr<Playing>(const SharedModel& model)>;
   virtual Make make() = 0;
-  // Gives what was made the settings as they are now, and the state of the one before (playing(),
+  // Gives `fresh` the settings as they are now, and the state of the one before (playing(),
   // null at first). Throws Error when the model cannot serve.
   virtual void take(const SharedModel& model, Playing& fresh) = 0;
   // After playing() has changed.

@@ -124,7 +124,7 @@ void Models::want_demo() {
 
 void Models::remove(ModelUser* user) { std::erase(inside_->entries[user->name_].users, user); }
 
-// What the worker made: the model, and for those who used the name when it began what they need.
+// What the worker made: a model, and what the boxes that used the name at the beginning need.
 struct Models::Loaded {
   SharedModel model;
   std::string reason;  // when there is none

@@ -33,8 +33,8 @@ class Outlet {
   // What has come, as it was.
   Outlet& add(std::span<const t_atom> atoms);
 
-  // Sends what was added since the last time; the buffer is empty again before anybody receives, so
-  // that a cord back to the same box does no harm.
+  // Sends the atoms added since the last time. The buffer is empty before any object receives them,
+  // so that a cord back to the same box does no harm.
   void send(const char* selector);
   void bang() { outlet_bang(outlet_); }
 

@@ -1,4 +1,4 @@
-// What a box's frames cost: for `perf`, and for the panel.
+// What a box's frames cost: for `perf` and [gait.panel].
 #pragma once
 
 #include <algorithm>
@@ -22,7 +22,7 @@ class Perf {
       perf_.most_ = std::max(perf_.most_, took.count());
       ++perf_.frames_;
     }
-    // It was none after all: nothing was due.
+    // Does not count this frame: none was due, or it was refused.
     void forget() { forgotten_ = true; }
     Frame(const Frame&) = delete;
     Frame& operator=(const Frame&) = delete;
@@ -34,7 +34,6 @@ class Perf {
   };
 
   void drop() { ++dropped_; }
-  int dropped() const { return dropped_; }
 
   // `perf MEAN_US MAX_US FRAMES DROPPED`, since the last time it was asked.
   void report(Outlet& info) {

@@ -1,4 +1,4 @@
-// A phase clock that is heard: four signal outlets, which [gait.viterbi~] and [gait.phase~] share.
+// A phase clock as four signal outlets, for [gait.viterbi~] and [gait.phase~].
 //
 //   phase~     0 to 1, a ramp per cycle     right~, left~   one sample of 1 where that foot touches
 //   cadence~   steps per second
@@ -24,11 +24,11 @@ class PhaseSignals {
   PhaseSignals(Box& box, std::function<void(int step)> contact);
 
   PhaseClock& clock() { return clock_; }
-  // Another clock (of another model), which goes on where the last one was.
+  // Changes to another model's clock, at the phase of the one before.
   void replace(const PhaseClockSettings& settings);
 
-  // With every frame: while no DSP runs, the clock goes on by what time has passed, so that
-  // contacts are told without sound too.
+  // To be called with every frame: while no DSP runs, this advances the clock by the time passed,
+  // so that contacts go out without DSP too.
   void keep_going();
 
   // From the box's dsp method; `first`: index of phase~ among the signals.
@@ -47,7 +47,7 @@ class PhaseSignals {
   double sample_rate_ = 48000;
   std::array<t_sample*, outlets> out_{};
   std::array<float, 8192> ramp_{};
-  // Steps that began since they were told; more than fit are not worth telling.
+  // Steps that began since the last call of tell(); more than fit are dropped.
   std::array<int, 64> steps_{};
   int count_ = 0;
   double moved_ = clock_getlogicaltime();  // when the clock was moved last

@@ -6,8 +6,7 @@
 
 namespace gait::pd {
 
-// Voices of one box (-poly) at most.
-constexpr int most_voices = 64;
+inline constexpr int most_voices = 64;  // performers in one box
 
 class VoiceMessage {
  public:
