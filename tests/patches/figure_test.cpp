@@ -41,7 +41,7 @@ TEST(Figure, is_drawn_in_its_colour_and_size) {
     patch.at_start({bones}, figure);
     again_and_again(patch, places(1.2), figure);
     const Screen screen(patch);
-    dots_of[large] = screen.wait_for_dots(red, large ? 2500 : 700);
+    dots_of[large] = screen.wait_for_dots(red, large ? 3 * dots_of[0] + 1 : 701);
     EXPECT_EQ(screen.log().find("error"), std::string::npos) << screen.log();
   }
   // Bones: 0.7 + 0.72 + 2 * 0.92 m at 100 dots a metre, 3 wide, and the head.
