@@ -2,6 +2,7 @@
 
 #include <gtest/gtest.h>
 
+#include <cstdint>
 #include <limits>
 #include <random>
 
@@ -69,6 +70,24 @@ TEST(PackedTriangle, reads_and_writes_at_any_address) {
   multiply(packed, x.data() + 1, size, result.data() + 3);
   const Eigen::VectorXd expected = lower * Eigen::VectorXd::Constant(size, 0.5);
   for (int i = 0; i < size; ++i) EXPECT_NEAR(result[3 + i], expected[i], 1e-4);
+}
+
+TEST(PackedTriangle, times_a_vector_is_the_same_with_every_kernel_of_this_processor) {
+  ASSERT_EQ(triangle_kernels().back().name, "portable");
+  for (const int size : {1, 15, 16, 17, 33, 144, 145}) {
+    const Eigen::MatrixXd lower = random_triangle(size, 11);
+    const PackedTriangle packed(lower);
+    EXPECT_EQ(reinterpret_cast<std::uintptr_t>(packed.panels.data()) % 64, 0u);
+    const Eigen::VectorXd expected = lower * Eigen::VectorXd::Constant(size, 0.5);
+    for (const TriangleKernel& kernel : triangle_kernels())
+      for (const int odd : {0, 1, 3}) {
+        std::vector<float> x(packed.padded() + odd, 0.5f), result(packed.padded() + odd);
+        kernel.multiply(packed.panels.data(), x.data() + odd,
+                        packed.padded() / PackedTriangle::rows, size, result.data() + odd);
+        for (int i = 0; i < size; ++i)
+          EXPECT_NEAR(result[odd + i], expected[i], 1e-6 * std::max(4, size)) << kernel.name;
+      }
+  }
 }
 
 }  // namespace

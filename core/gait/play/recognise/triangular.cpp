@@ -1,7 +1,9 @@
 #include "gait/play/recognise/triangular.h"
 
 #include <algorithm>
+#include <array>
 #include <cstddef>
+#include <cstdlib>
 
 namespace gait {
 
@@ -9,61 +11,95 @@ namespace {
 
 constexpr int rows = PackedTriangle::rows;
 
-// A column of a panel. The compiler makes of it what the processor has: four, two or one register.
-using Column = float __attribute__((vector_size(rows * sizeof(float)), aligned(alignof(float))));
+// Vectors of `width` floats, at their own alignment and at any.
+template <int width>
+struct Vectors;
+template <>
+struct Vectors<4> {
+  using Aligned = float __attribute__((vector_size(16)));
+  using Anywhere = float __attribute__((vector_size(16), aligned(alignof(float))));
+};
+template <>
+struct Vectors<8> {
+  using Aligned = float __attribute__((vector_size(32)));
+  using Anywhere = float __attribute__((vector_size(32), aligned(alignof(float))));
+};
+template <>
+struct Vectors<16> {
+  using Aligned = float __attribute__((vector_size(64)));
+  using Anywhere = float __attribute__((vector_size(64), aligned(alignof(float))));
+};
 
-// `unrolled` columns at a time, each with a sum of its own: a product does not wait for the last.
-template <int unrolled>
+// One product, with vectors that the processor holds in one register: compilers keep wider ones on
+// the stack. It takes `unrolled` columns at a time, each with sums of its own, so that no product
+// waits for the one before.
+template <int width, int unrolled>
 [[gnu::always_inline]] inline void multiply_panels(const float* panel, const float* x, int panels,
                                                    int size, float* result) noexcept {
+  using Vector = typename Vectors<width>::Aligned;
+  using Anywhere = typename Vectors<width>::Anywhere;
+  constexpr int pieces = rows / width;  // of a column
   for (int p = 0; p < panels; ++p) {
-    Column sums[unrolled] = {};
+    Vector sums[unrolled][pieces] = {};
     const int columns = std::min((p + 1) * rows, size);
+    const auto add = [&](Vector(&sum)[pieces], int column) __attribute__((always_inline)) {
+      const auto* const entries =
+          reinterpret_cast<const Vector*>(panel + static_cast<std::ptrdiff_t>(column) * rows);
+#pragma GCC unroll 4
+      for (int piece = 0; piece < pieces; ++piece) sum[piece] += entries[piece] * x[column];
+    };
     int column = 0;
-    for (; column + unrolled <= columns; column += unrolled)
-      for (int i = 0; i < unrolled; ++i)
-        sums[i] += *reinterpret_cast<const Column*>(
-                       panel + static_cast<std::ptrdiff_t>(column + i) * rows) *
-                   x[column + i];
-    for (; column < columns; ++column)
-      sums[0] +=
-          *reinterpret_cast<const Column*>(panel + static_cast<std::ptrdiff_t>(column) * rows) *
-          x[column];
-    for (int i = 1; i < unrolled; ++i) sums[0] += sums[i];
-    *reinterpret_cast<Column*>(result + p * rows) = sums[0];
+    for (; column + unrolled <= columns; column += unrolled) {
+#pragma GCC unroll 4
+      for (int i = 0; i < unrolled; ++i) add(sums[i], column + i);
+    }
+    for (; column < columns; ++column) add(sums[0], column);
+#pragma GCC unroll 4
+    for (int piece = 0; piece < pieces; ++piece) {
+#pragma GCC unroll 4
+      for (int i = 1; i < unrolled; ++i) sums[0][piece] += sums[i][piece];
+      *reinterpret_cast<Anywhere*>(result + p * rows + piece * width) = sums[0][piece];
+    }
     panel += static_cast<std::ptrdiff_t>(columns) * rows;
   }
 }
 
-using Kernel = void (*)(const float*, const float*, int, int, float*) noexcept;
-
 void multiply_anywhere(const float* panel, const float* x, int panels, int size,
                        float* result) noexcept {
-  multiply_panels<2>(panel, x, panels, size, result);
+  multiply_panels<4, 2>(panel, x, panels, size, result);
 }
 
 #if defined(__x86_64__)
 [[gnu::target("avx2,fma")]] void multiply_avx2(const float* panel, const float* x, int panels,
                                                int size, float* result) noexcept {
-  multiply_panels<4>(panel, x, panels, size, result);
+  multiply_panels<8, 4>(panel, x, panels, size, result);
 }
 
 [[gnu::target("avx512f")]] void multiply_avx512(const float* panel, const float* x, int panels,
                                                 int size, float* result) noexcept {
-  multiply_panels<4>(panel, x, panels, size, result);
+  multiply_panels<16, 4>(panel, x, panels, size, result);
 }
 #endif
 
-Kernel best_kernel() noexcept {
+struct Kernels {
+  std::array<TriangleKernel, 3> all;
+  std::size_t count = 0, chosen = 0;
+
+  Kernels() noexcept {
 #if defined(__x86_64__)
-  __builtin_cpu_init();
-  if (__builtin_cpu_supports("avx512f")) return multiply_avx512;
-  if (__builtin_cpu_supports("avx2") && __builtin_cpu_supports("fma")) return multiply_avx2;
+    __builtin_cpu_init();
+    if (__builtin_cpu_supports("avx512f")) all[count++] = {"avx512", multiply_avx512};
+    if (__builtin_cpu_supports("avx2") && __builtin_cpu_supports("fma"))
+      all[count++] = {"avx2", multiply_avx2};
 #endif
-  return multiply_anywhere;
-}
+    all[count++] = {"portable", multiply_anywhere};
+    const char* const wanted = std::getenv("GAIT_KERNEL");
+    for (std::size_t i = 0; wanted != nullptr && i < count; ++i)
+      if (all[i].name == wanted) chosen = i;
+  }
+};
 
-const Kernel kernel = best_kernel();
+const Kernels kernels;
 
 }  // namespace
 
@@ -77,8 +113,13 @@ PackedTriangle::PackedTriangle(const Eigen::Ref<const Eigen::MatrixXd>& lower)
 }
 
 void multiply(const PackedTriangle& triangle, const float* x, int count, float* result) noexcept {
-  kernel(triangle.panels.data(), x, (std::min(count, triangle.size) + rows - 1) / rows,
-         triangle.size, result);
+  kernels.all[kernels.chosen].multiply(triangle.panels.data(), x,
+                                       (std::min(count, triangle.size) + rows - 1) / rows,
+                                       triangle.size, result);
+}
+
+std::span<const TriangleKernel> triangle_kernels() noexcept {
+  return {kernels.all.data(), kernels.count};
 }
 
 }  // namespace gait
