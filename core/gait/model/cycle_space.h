@@ -36,7 +36,7 @@ struct StyleCycles {
   std::vector<Variation> scores;  // per kept component
   Variation duration;             // seconds
   Eigen::MatrixXd correlation;    // between scores and, last, duration; from cycle to cycle
-  Eigen::MatrixXd projected;      // the cycles themselves: scores by cycles, for whoever looks
+  Eigen::MatrixXd projected;      // scores by cycles, for figures
   Eigen::VectorXd durations;      // and their seconds
 };
 
@@ -63,7 +63,7 @@ struct SpeedSpace {
   Eigen::VectorXd intercept, slope;  // per kept component
   Eigen::VectorXd standing;          // scores of standing, V = 0
   double slowest = 0, fastest = 0;   // captured V
-  // The cycles themselves, for whoever looks: V, cycles per second, scores by cycles.
+  // The captured cycles, for figures: V, cycles per second, scores by cycles.
   Eigen::VectorXd speeds, frequencies;
   Eigen::MatrixXd projected;
   // Cycles per second at V: scale * V^power (G04 eq. 6).

@@ -74,7 +74,7 @@ struct Body {
 
 enum class DecoderKind { viterbi, forward, lag };
 
-// How to play the model unless told otherwise; found by cross-validation where that is said.
+// Defaults of playing the model; some are chosen by cross-validation.
 struct PlayDefaults {
   DecoderKind decoder = DecoderKind::forward;
   double lag = 0.1;            // seconds, for DecoderKind::lag

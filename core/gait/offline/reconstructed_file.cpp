@@ -59,8 +59,8 @@ class FileReconstruction {
   }
 
  private:
-  // From here on the clip is told by a rig that rests as the model's does; what is written is
-  // turned back. Joints above the hips only carry them: they stay as they are.
+  // Turns the clip's rig until it rests as the model's does; writing turns it back. Joints above
+  // the hips only carry the body, so they stay as they are.
   void turn_rest() {
     Skeleton in_metres = clip_.skeleton;
     double mine = 0, file = 0;
@@ -239,7 +239,7 @@ class FileReconstruction {
 
   std::shared_ptr<const Model> model_;
   const Body& body_;
-  Clip clip_;                              // in the file's frame, told by the turned rig
+  Clip clip_;                              // in the file's frame, of the turned rig
   std::vector<Eigen::Quaterniond> turns_;  // per joint of the file
   FileRoot root_;
   std::vector<int> matched_, inputs_;

@@ -6,8 +6,8 @@ namespace gait {
 
 namespace {
 
-// For so long after a stream began the synthesiser is told where its walk is: one that walks alone
-// falls in step meanwhile.
+// For so long after a stream begins, the synthesiser gets the place of its walk with each frame: a
+// synthesiser that walks alone falls in step with it meanwhile.
 constexpr double falling_in_seconds = 2;
 
 }  // namespace

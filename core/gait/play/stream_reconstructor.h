@@ -113,7 +113,7 @@ class StreamReconstructor {
   bool walks_alone_;
   std::vector<Taken> ring_;
   int taken_ = 0, decided_ = 0;  // frames so far
-  int places_ = 0;               // told to the synthesiser since the stream began
+  int places_ = 0;               // that the synthesiser was given since the stream began
   bool whole_ = false;           // a whole pose is shown, of which nothing was measured
   ReconstructedFrame frame_;
 };

@@ -1,8 +1,9 @@
-// Frames of a stream that another one belongs to, which comes later: which of them to show with it.
+// Delays a measured stream, so that its frames are shown with the synthesised ones that belong to
+// them and come later.
 //
-// Streams are told apart by how often they come: each frame that is shown is marked, and what had
-// come by `delay` marks ago belongs to the frame shown now, whatever rate its sender has. Until so
-// many marks are there both are taken to come equally often. Nothing allocates after construction.
+// Each shown frame sets a mark. The frame that had come `delay` marks ago belongs to the one shown
+// now, whatever the rates of the two streams. Until there are so many marks, both streams are
+// assumed to have one rate. Nothing allocates after construction.
 #pragma once
 
 #include <Eigen/Core>

@@ -28,7 +28,7 @@ constexpr double deepest_freely = 0.0088;   // m: nor any point under the root t
 constexpr double give = 0.005;              // m: deeper than that the ground pushes it out by half
 constexpr double deep_still = 0.007;        // m: less is no longer sunk
 constexpr double deepest_gently = 0.05;     // m: where legs bend instead
-constexpr float fastest_start = 3.0f;       // m/s: faster than 10 km/h nobody walks
+constexpr float fastest_start = 3.0f;       // m/s, above the 10 km/h that walkers reach
 constexpr float starting_seconds = 0.3f;    // until pins are believed enough to be smoothed
 constexpr float brisk = 1.4f;               // m/s
 constexpr double recovery_seconds = 0.2;    // what the root is behind its pins is made up for in
@@ -207,8 +207,8 @@ void RootMotion::weigh_points() noexcept {
 }
 
 void RootMotion::move() noexcept {
-  // Who walks is pinned by this frame's weights. Who stands by the mean with the last frame's: a
-  // weight that trembles with the point that it weighs would otherwise pump the root along.
+  // A walking body is pinned by this frame's weights, a standing one by their mean with the last
+  // frame's: otherwise a weight that trembles with its own point would pump the root along.
   const float of_last = frames_ > 2 ? 0.5f * (1 - walking_) : 0;
   Eigen::Vector3f wanted = Eigen::Vector3f::Zero();
   for (const Point& point : points_)

@@ -50,9 +50,8 @@ class RootMotion {
   // ground.
   void reset(const Eigen::Vector3f& place = Eigen::Vector3f::Zero()) noexcept;
 
-  // How gently it is pushed after its pins, 0 to 1, and a little late, for whoever has a FootLock:
-  // the legs take up what that leaves. Above 0 feet sink by up to 5 cm until they are lifted. At
-  // first 0; at any frame.
+  // How gently the root follows its pins, 0 (at first) to 1, and how late; settable at any frame. A
+  // FootLock must then correct the legs: above 0, feet sink by up to 5 cm until it lifts them.
   void set_gentle(float gentle) noexcept { gentle_ = gentle; }
   // Whether it is gentle, or a foot is still in the ground since it was.
   bool sunk() const noexcept { return sunk_; }

@@ -32,8 +32,8 @@ class ClipPlayer {
   // Throws Error when the model has no body.
   explicit ClipPlayer(std::shared_ptr<const Model> model);
 
-  // Another walk, from its beginning; told by this model's body (one with another number of joints
-  // is not taken: false). Null: none. Rate and loop stay.
+  // Plays another walk, from its beginning; null: none. Its poses are of this model's body: false,
+  // with nothing changed, when it has another number of joints. Rate and loop stay.
   bool set_motion(std::shared_ptr<const BodyMotion> motion) noexcept;
   const BodyMotion* motion() const noexcept { return motion_.get(); }
 

@@ -132,7 +132,7 @@ PoseRecorder::Recording PoseRecorder::finish() {
 double PoseRecorder::Recording::frame_rate() const {
   const double rate = seconds_ > 0 ? (frames_ - 1) / seconds_ : 0;
   const double against_model = rate / model_->frame_rate;
-  // Outside of this somebody stepped through frames by hand, or sent them all at once.
+  // Outside of this the frames came by hand, one by one, or all at once: times say nothing then.
   const bool sensible = against_model > 0.2 && against_model < 8;
   return sensible && std::abs(against_model - 1) > 0.05 ? rate : model_->frame_rate;
 }

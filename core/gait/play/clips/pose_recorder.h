@@ -96,7 +96,7 @@ class PoseRecorder {
   double first_time_ = 0, last_time_ = 0, inputs_time_ = 0;
   bool inputs_wait_ = false;  // inputs came that no outputs or pose have followed
   bool root_told_ = false;
-  std::vector<Eigen::Quaternionf> pose_;  // of the frame being told
+  std::vector<Eigen::Quaternionf> pose_;  // of the frame that is recorded next
   Eigen::Vector3f hips_ = Eigen::Vector3f::Zero();
   float heading_ = 0;
 };
@@ -104,9 +104,9 @@ class PoseRecorder {
 class PoseRecorder::Recording {
  public:
   int frames() const { return frames_; }
-  // The walk, with its contacts and steps. Its rate is that at which frames came, or the model's
-  // where that is what was meant (within a twentieth) or times say nothing. Where no root was told
-  // the feet carry the hips. Takes its time: for a thread of its own.
+  // The recorded walk, with its contacts and steps. Its rate is the rate at which frames came; it
+  // is the model's where the two differ by less than a twentieth or where times say nothing.
+  // Without recorded roots the feet carry the hips. It takes long: call it on a worker.
   BodyMotion motion(const std::string& name) const;
 
  private:

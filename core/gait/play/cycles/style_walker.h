@@ -2,10 +2,10 @@
 //
 // Each cycle has scores of its own in the space of styles and a duration of its own (eq. 2 and 4,
 // cycle_draws.h); over the last tenth of the phase they become those of the next. Beyond the paper
-// scores that went together in training go together here: drawn each for itself, as in eq. 2, they
-// make cycles that nobody walked. And styles mix by weights: mean, largest change of each score and
-// what goes together are interpolated, deviations as those of independent draws. However far all
-// that goes, knees and elbows bend no further than those that were learnt from (hinge_limits.h).
+// scores are drawn with the correlations that they had in training: drawn independently, as in
+// eq. 2, they make cycles that no walker makes. Styles mix by weights: means, largest changes and
+// correlations are interpolated, deviations as those of independent draws. Knees and elbows never
+// bend further than those in training (hinge_limits.h).
 //
 // Controls may be set between any two frames. What is set before the first frame holds from it on;
 // after that nothing jumps: styles, variation, exaggeration and pins arrive within about a step. A

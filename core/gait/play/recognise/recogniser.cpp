@@ -122,7 +122,7 @@ void Recogniser::note_unseen() noexcept {
 
 void Recogniser::keep_tables_current() noexcept {
   if (old_to_return_) {
-    // A frame later nobody else looks at the old ones any more: the worker frees them.
+    // The parts let go of the old tables a frame ago: the worker frees them.
     maker_.take(tables_);
     old_to_return_ = awaiting_ = false;
   } else if (maker_.finished()) {

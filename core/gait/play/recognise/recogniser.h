@@ -74,8 +74,8 @@ class Recogniser {
   Eigen::Map<const Eigen::VectorXf> innovation(int state) const noexcept {
     return emissions_.innovation(state);
   }
-  // The phase a clock should be told, and how late that is by the time of the last frame taken:
-  // the estimate's age and the decoder's lag (seconds).
+  // The phase for a clock to follow, and its age at the time of the last frame taken: the
+  // estimate's own and the decoder's lag (seconds).
   const PhaseEstimate& phase_estimate() const noexcept { return estimate_; }
   double late() const noexcept { return estimate_.age + lag() / model_->frame_rate; }
 
@@ -132,7 +132,7 @@ class Recogniser {
 
   std::vector<float> values_;          // held values, one per input value
   Eigen::ArrayXf lowest_, highest_;    // of each, what can be a measurement
-  std::vector<bool> missing_;          // as told
+  std::vector<bool> missing_;          // as set
   std::vector<int> returned_;          // real frames in a row, up to the history and one
   std::vector<bool> wanted_, masked_;  // masks: that should be, that is in the tables or asked for
   bool awaiting_ = false;              // asked, and not taken yet

@@ -23,7 +23,7 @@ class TableMaker {
   bool ask(const std::vector<bool>& missing) noexcept;
 
   // The result, once it is there: then true, and `current` holds it. Tables that `current` held are
-  // handed back to be freed by the worker; nobody else may still use them.
+  // handed back for the worker to free; no other object may still use them.
   bool take(std::shared_ptr<const StateTables>& current) noexcept;
 
   // Whether the worker is done with the last request; it stays so until the result is taken.

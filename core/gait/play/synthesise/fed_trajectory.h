@@ -1,5 +1,5 @@
 // The smooth path through the Gaussians that a synthesiser is fed: Trajectory over the values that
-// the model moves, and the told means of the others, in time with them.
+// the model moves, and beside it the means of the other values, delayed alike.
 //
 // The queue is solved every `current` frames, and one frame leaves with each that is taken: a frame
 // leaves `future + current - 1` frames after it was taken. Values are the model's output values, in

@@ -112,7 +112,7 @@ StepPlace StepWalker::place_at(int label, float phase, float labels) const noexc
   phase += labels * phase_span_[label];
   phase -= std::floor(phase);
   StepPlace place{label, 0, 0};
-  // Who is in a cycle follows by itself.
+  // The labels of a cycle lead back to the first.
   for (int i = 0; i < tables_->labels(); ++i) {
     place.progress = (phase - phase_begin_[place.label]) / phase_span_[place.label];
     if (place.progress >= 0 && place.progress < 1) return place;

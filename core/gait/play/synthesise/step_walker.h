@@ -4,9 +4,9 @@
 // Labels queue up and last as the model or the player says; the states of a label share its
 // duration in proportion of their mean durations. Each frame the Gaussian of the moment, between
 // the states' and mixed over the styles by weights, goes into the same trajectory generator that
-// reconstructs, here over inputs and outputs together. As nobody has to be waited for, the queue
-// looks `future` frames ahead: output is smooth and not late, only labels, styles and durations
-// take that much longer to be seen.
+// reconstructs, here over inputs and outputs together. The walker knows what comes next, so the
+// queue looks `future` frames ahead: output is smooth and not late; only changes of label, style
+// and duration show that much later.
 //
 // Controls may be set between any two frames. What is set before the first frame holds from it on;
 // after that nothing jumps: changes arrive within about a step. A control that cannot be set (not
@@ -73,11 +73,11 @@ class StepWalker {
 
   // Makes the next frame, 1 / model.frame_rate later.
   void advance() noexcept;
-  // Walks faster or slower from here on without being told otherwise by the controls, 0.1 to 4:
-  // to fall in step with somebody.
+  // Multiplies the cadence from here on, 0.1 to 4, beside the controls: to fall in step with
+  // another walk.
   void set_pace(float pace) noexcept;
-  // How many cycles it is behind somebody at this phase and cadence (labels per second), as it will
-  // be when what is decided now is shown; -0.6 to 0.4, as it is easier to wait than to hurry.
+  // How many cycles it will be behind a walk that is now at this phase and cadence (labels per
+  // second), when what is decided now is shown: -0.6 to 0.4, as waiting is easier than hurrying.
   float behind(float phase, float cadence) const noexcept;
   // Goes on from here: the frame that was last shown is at this place. Styles and cadence are at
   // once as given, styles without a walk left out. Stream controls and the queue stay.

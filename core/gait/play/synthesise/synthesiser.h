@@ -2,11 +2,10 @@
 // alone.
 //
 // Fed, it runs the trajectory generator over the frames' Gaussians (FedTrajectory). Alone it is a
-// StepWalker, if it may walk alone. When the input stops it hands out what
-// was held back, then walks on from the very outputs it was in, or comes to rest, or stops; when
-// the input returns it stays alone until the observations' history is whole again and the walker
-// has fallen in step (two seconds at most; at once when nobody says where the walk is), then goes
-// over. Hand-overs are continuous in value and speed.
+// StepWalker, if it may walk alone. When the input stops, it hands out the frames that were held
+// back; then it walks on from its last outputs, comes to rest, or stops. When the input returns, it
+// stays alone until the observations' history is whole again and the walker has fallen in step
+// (two seconds at most; at once without set_place()). Hand-overs are continuous in value and speed.
 //
 // A whole body is the input joints with the outputs. Only the walker knows input joints: while it
 // is fed they stay where the walker had them last (at first, in the mean of training).
@@ -47,9 +46,9 @@ class Synthesiser {
 
   // Takes the next frame's Gaussian over all output values: statics, first, then second differences
   // per frame, 3 * model.output.values of either. Values that the model leaves out keep their mean.
-  // True when a frame was made; false while the future's first frames come in. `after_gap`: nothing
-  // came for longer than a frame, though nobody said that the input had stopped; when the frame
-  // does not follow the one shown, the trajectory begins anew and is gone over to.
+  // True when a frame was made; false while the future's first frames come in. `after_gap`: no
+  // frame came for longer than a period, and go_on() was not called meanwhile. If the new frame
+  // does not follow the one shown, the trajectory begins anew, without a jump.
   bool push(std::span<const float> means, std::span<const float> variances,
             bool after_gap = false) noexcept;
   // Whether push would take them: of that size, finite, variances of modelled values positive.
@@ -60,11 +59,11 @@ class Synthesiser {
   // Makes the next of the frames that are held back, at the end of a stream. False when none is.
   bool flush() noexcept;
 
-  // Where whoever feeds it is: phase of the cycle, labels per second, a weight per style. From
-  // there it goes on, and with that it falls in step. False, with nothing changed, when a number is
-  // not finite or the weights are not as many as the styles.
+  // Where the walk that feeds it is: phase of the cycle, labels per second, a weight per style. It
+  // walks on alone from there, and falls in step with it. False, with nothing changed, when a
+  // number is not finite or the weights are not as many as the styles.
   bool set_place(float phase, float cadence, std::span<const float> weights) noexcept;
-  // Whether whoever feeds it walks: who stood when the input stopped stands on.
+  // Whether the body that feeds it walks. If it stood when the input stopped, it stands on.
   void set_walking(bool walking) noexcept;
   void set_on_lost(OnLost what) noexcept { on_lost_ = what; }
 
