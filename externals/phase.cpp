@@ -29,8 +29,7 @@ class Phase {
     clock().observe_contact(foot == "right" ? 0 : 1);
   }
   void walking(const Arguments& arguments) {
-    walking_ = arguments.only().flag(0);
-    clock().set_walking(walking_);
+    clock().set_walking(arguments.only().flag(0));
   }
   void pull(const Arguments& arguments) {
     pull_ = arguments.only().number(0, 0, 10);
@@ -41,7 +40,7 @@ class Phase {
   void dump(const Arguments&) {
     info_.add(cadence_).send("cadence");
     info_.add(pull_).send("pull");
-    info_.add(walking_ ? 1 : 0).send("walking");
+    info_.add(clock().walking() ? 1 : 0).send("walking");
   }
   void report_perf(const Arguments&) { signals_.report(info_); }
   void print(const Arguments&) {
@@ -63,7 +62,6 @@ class Phase {
   PhaseSignals signals_;
   Outlet info_;
   double cadence_ = 1.8, pull_ = 1;
-  bool walking_ = true;
 };
 
 }  // namespace

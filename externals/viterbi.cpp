@@ -92,7 +92,6 @@ class Viterbi final : public ModelPlayer<Recognising> {
     if (playing()) live().reset();
     sender_.reset();
     signals_.clock().reset();
-    signals_.clock().set_walking(walking_);
     step_ = style_ = -1;
   }
   void dump(const Arguments&) { settings_.dump(info_); }
@@ -137,7 +136,6 @@ class Viterbi final : public ModelPlayer<Recognising> {
     info_.reserve(static_cast<int>(learnt.styles.size()) + 8);
     signal_input_.set_rate(learnt.frame_rate);
     signals_.replace(fresh.live.recogniser().clock_settings());
-    signals_.clock().set_walking(walking_);
     sender_.reset();
     step_ = style_ = -1;
   }
@@ -284,7 +282,7 @@ class Viterbi final : public ModelPlayer<Recognising> {
   SignalInput signal_input_{
       box(), [this](double time, std::span<const float> values) { signal_frame(time, values); }};
   const double begin_ = clock_getlogicaltime();
-  bool streaming_ = false, walking_ = true;
+  bool streaming_ = false, walking_ = false;
   int told_places_ = 0;  // since the stream began
   static constexpr int nothing_taught = -2;
   int step_ = -1, style_ = -1;  // sent last

@@ -2,21 +2,32 @@
 
 #include <algorithm>
 
+// Pd's own, of m_imp.h, the same since 0.37: the first cord of an outlet, or null.
+extern "C" {
+EXTERN t_outconnect* obj_starttraverseoutlet(const t_object*, t_outlet**, int number);
+}
+
 namespace gait::pd {
 
 PhaseSignals::PhaseSignals(Box& box, std::function<void(int)> contact)
-    : contact_(std::move(contact)) {
+    : box_(box), contact_(std::move(contact)) {
   for (int i = 0; i < outlets; ++i) outlet_new(&box.object, gensym("signal"));
 }
 
 void PhaseSignals::replace(const PhaseClockSettings& settings) {
-  const float phase = clock_.phase();
-  clock_ = PhaseClock(settings);
-  clock_.observe(phase);
+  PhaseClock fresh(settings);
+  fresh.take_over(clock_);
+  clock_ = fresh;
 }
 
+// Pd calls this again whenever a cord of signals comes or goes; a signal without cords is not
+// written.
 void PhaseSignals::dsp(t_signal** signals, int first) {
-  for (int i = 0; i < outlets; ++i) out_[static_cast<std::size_t>(i)] = signals[first + i]->s_vec;
+  for (int i = 0; i < outlets; ++i) {
+    t_outlet* outlet = nullptr;
+    const bool heard = obj_starttraverseoutlet(&box_.object, &outlet, i) != nullptr;
+    out_[static_cast<std::size_t>(i)] = heard ? signals[first + i]->s_vec : nullptr;
+  }
   sample_rate_ = signals[first]->s_sr;
   dsp_add(&perform, 2, this, static_cast<t_int>(signals[first]->s_n));
 }
@@ -28,21 +39,20 @@ t_int* PhaseSignals::perform(t_int* w) {
 
 void PhaseSignals::fill(int count) noexcept {
   const auto begin = std::chrono::steady_clock::now();
-  t_sample *phase = out_[0], *cadence = out_[1], *right = out_[2], *left = out_[3];
-  std::fill_n(right, count, t_sample(0));
-  std::fill_n(left, count, t_sample(0));
-  const int longest = static_cast<int>(ramp_.size());
-  for (int done = 0; done < count; done += longest) {
-    const int part = std::min(longest, count - done);
-    clock_.process({ramp_.data(), static_cast<std::size_t>(part)}, sample_rate_);
-    for (const PhaseClock::Crossing& crossing : clock_.crossings()) {
-      (crossing.step % 2 == 0 ? right : left)[done + crossing.sample] = 1;
-      if (count_ < static_cast<int>(steps_.size()))
-        steps_[static_cast<std::size_t>(count_++)] = crossing.step;
-    }
-    for (int i = 0; i < part; ++i) phase[done + i] = ramp_[static_cast<std::size_t>(i)];
+  const auto [phase, cadence, right, left] = out_;
+  for (t_sample* const contacts : {right, left})
+    if (contacts) std::fill_n(contacts, count, t_sample(0));
+  if (phase)
+    clock_.process(std::span(phase, static_cast<std::size_t>(count)), sample_rate_);
+  else
+    clock_.process(count, sample_rate_);
+  for (const PhaseClock::Crossing& crossing : clock_.crossings()) {
+    if (t_sample* const contacts = crossing.step % 2 == 0 ? right : left)
+      contacts[crossing.sample] = 1;
+    if (count_ < static_cast<int>(steps_.size()))
+      steps_[static_cast<std::size_t>(count_++)] = crossing.step;
   }
-  std::fill_n(cadence, count, t_sample(clock_.cadence()));
+  if (cadence) std::fill_n(cadence, count, t_sample(clock_.cadence()));
   if (count_ > 0) ticker_.after(0);
   moved_ = clock_getlogicaltime();
   silent_ = false;

@@ -24,7 +24,7 @@ class PhaseSignals {
   PhaseSignals(Box& box, std::function<void(int step)> contact);
 
   PhaseClock& clock() { return clock_; }
-  // Changes to another model's clock, at the phase of the one before.
+  // Changes to another model's clock, which goes on as the one before did.
   void replace(const PhaseClockSettings& settings);
 
   // To be called with every frame: while no DSP runs, this advances the clock by the time passed,
@@ -42,11 +42,11 @@ class PhaseSignals {
   void fill(int count) noexcept;
   void tell();
 
+  Box& box_;
   PhaseClock clock_;
   std::function<void(int)> contact_;
   double sample_rate_ = 48000;
-  std::array<t_sample*, outlets> out_{};
-  std::array<float, 8192> ramp_{};
+  std::array<t_sample*, outlets> out_{};  // null where no cord leads away
   // Steps that began since the last call of tell(); more than fit are dropped.
   std::array<int, 64> steps_{};
   int count_ = 0;

@@ -38,7 +38,7 @@ struct PhasePatch : Patch {
 TEST(PhaseObject, runs_at_the_cadence_it_is_given_and_touches_the_ground_once_a_step) {
   GAIT_NEEDS_PD();
   PhasePatch patch(10000);
-  patch.at_start({"cadence 2"}, patch.phase);
+  patch.at_start({"walking 1", "cadence 2"}, patch.phase);
   const PdRun run = run_pd(patch);
   ASSERT_EQ(run.exit_code, 0) << run.log;
   EXPECT_EQ(run.errors(), std::vector<std::string>()) << run.log;
@@ -94,7 +94,49 @@ TEST(PhaseObject, refuses_what_it_cannot_use) {
   EXPECT_NE(run.log.find("gait.phase~: contact: expected right or left, got 'middle'"),
             std::string::npos)
       << run.log;
-  EXPECT_EQ(std::ranges::count(run.recorded("info"), "walking 1"), 1);
+  EXPECT_EQ(std::ranges::count(run.recorded("info"), "walking 0"), 1);
+}
+
+TEST(PhaseObject, stands_until_somebody_walks) {
+  GAIT_NEEDS_PD();
+  for (const std::string what : {"cadence 2", "pull 2", "tap", "contact left", "phase 0.2"}) {
+    PhasePatch patch(3000);
+    patch.at_start({what}, patch.phase);
+    const PdRun run = run_pd(patch);
+    ASSERT_EQ(run.exit_code, 0) << run.log;
+    const bool starts = what != "cadence 2" && what != "pull 2";
+    EXPECT_EQ(run.recorded("info").size() > 0, starts) << what;
+    EXPECT_EQ(run.numbers("right", "float").back()[0] > 0, starts) << what;
+    EXPECT_EQ(run.numbers("phase", "float").back()[0] > 0, starts) << what;
+    EXPECT_EQ(run.numbers("cadence", "float").back()[0] > 0, starts) << what;
+  }
+}
+
+// A signal that no cord takes is not written; a cord that comes while it plays is heard at once.
+TEST(PhaseObject, is_heard_where_a_cord_is_made_while_it_plays) {
+  GAIT_NEEDS_PD();
+  Patch patch;
+  const int phase = patch.object("gait.phase~"), heard = patch.object("snapshot~"),
+            begin = patch.object("loadbang"), late = patch.object("del 500"),
+            metro = patch.object("metro 10");
+  patch.at_start({"walking 1"}, phase);
+  patch.record(heard, 0, "phase");
+  patch.record(phase, 4, "info");
+  const int connect = patch.message("; pd-test.pd connect " + std::to_string(phase) + " 0 " +
+                                    std::to_string(heard) + " 0");
+  patch.connect(begin, 0, late);
+  patch.connect(late, 0, connect);
+  patch.connect(begin, 0, metro);
+  patch.connect(metro, 0, heard);
+  patch.dsp();
+  patch.quit_after(1500);
+  const PdRun run = run_pd(patch);
+  ASSERT_EQ(run.exit_code, 0) << run.log;
+  const auto values = run.numbers("phase", "float");
+  ASSERT_GT(values.size(), 100u);
+  EXPECT_EQ(values[40][0], 0);
+  EXPECT_GT(values.back()[0], 0);
+  EXPECT_GE(run.recorded("info").size(), 3u) << "contacts are told whatever is heard";
 }
 
 }  // namespace

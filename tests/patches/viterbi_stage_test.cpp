@@ -197,6 +197,56 @@ TEST(ViterbiObject, stops_when_its_stream_is_lost_if_it_is_told_so) {
   }
 }
 
+// Nothing steps before somebody walks, whatever else happens to the object.
+TEST(ViterbiObject, nobody_steps_before_a_frame_came) {
+  GAIT_NEEDS_PD();
+  const std::vector<std::vector<std::string>> nobody = {
+      {}, {"reset"}, {"model gait-demo"}, {"decoder forward"}, {"resend", "timeout 0.1"}};
+  for (const auto& messages : nobody) {
+    ChainPatch patch;
+    const int ramp = patch.object("snapshot~"), begin = patch.object("loadbang"),
+              metro = patch.object("metro 50");
+    patch.connect(patch.viterbi, 0, ramp);
+    patch.connect(begin, 0, metro);
+    patch.connect(metro, 0, ramp);
+    patch.record(ramp, 0, "ramp");
+    patch.at_start(messages, patch.viterbi);
+    patch.dsp();
+    patch.quit_after(3000);
+    const PdRun run = run_pd(patch);
+    ASSERT_EQ(run.exit_code, 0) << run.log;
+    for (const std::string& line : run.recorded("info"))
+      EXPECT_EQ(line, "stream 0") << "it was asked";
+    ASSERT_GT(run.numbers("ramp", "float").size(), 50u);
+    for (const auto& phase : run.numbers("ramp", "float")) ASSERT_EQ(phase[0], 0);
+  }
+}
+
+// A walk that stopped with its stream stays so, though it is reset or another model comes.
+TEST(ViterbiObject, nobody_steps_on_after_the_walk_stopped) {
+  GAIT_NEEDS_PD();
+  const Eigen::MatrixXf inputs = inputs_of(unseen_walk("cool"));
+  for (const std::string what : {"reset", "model gait-demo", "decoder forward"}) {
+    ChainPatch patch;
+    std::vector<std::pair<double, std::string>> messages{{0, "onlost stop"}};
+    for (int frame = 0; frame < 60; ++frame)
+      messages.push_back({1 / 30.0, message_of("in", inputs.col(frame))});
+    messages.push_back({1, what});
+    patch.play(messages);
+    patch.dsp();
+    patch.quit_after(6000);
+    const PdRun run = run_pd(patch);
+    ASSERT_EQ(run.exit_code, 0) << run.log;
+    const auto info = run.recorded("info");
+    const auto stopped = std::ranges::find(info, "stream 0");
+    ASSERT_NE(stopped, info.end());
+    EXPECT_GT(std::count(info.begin(), stopped, "contact right"), 0);
+    // While it comes to rest, a foot may still touch.
+    const auto is_contact = [](const auto& line) { return line.starts_with("contact"); };
+    EXPECT_LE(std::count_if(stopped, info.end(), is_contact), 1) << what;
+  }
+}
+
 TEST(ViterbiObject, tells_of_contacts_without_sound_too) {
   GAIT_NEEDS_PD();
   const CorpusWalk walk = unseen_walk("proud");

@@ -21,6 +21,7 @@ using testing::true_contacts;
 
 TEST(PhaseClockContacts, contacts_are_heard_at_the_sample_where_the_ramp_crosses) {
   PhaseClock clock;
+  clock.set_walking(true);
   clock.set_cadence(2.21);
   std::vector<float> block(4800);
   float before = 0;

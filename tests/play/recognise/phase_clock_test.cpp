@@ -3,8 +3,11 @@
 #include <gtest/gtest.h>
 
 #include <cmath>
+#include <iterator>
 #include <limits>
+#include <random>
 #include <type_traits>
+#include <utility>
 #include <vector>
 
 #include "gait/error.h"
@@ -116,6 +119,7 @@ TEST(PhaseClock, stands_still_when_the_walker_does_and_goes_on_when_he_does) {
 
 TEST(PhaseClock, says_that_cadence_is_zero_while_standing) {
   PhaseClock clock;
+  clock.set_walking(true);
   clock.set_cadence(2);
   clock.advance(1);
   EXPECT_NEAR(clock.cadence(), 2, 1e-6);
@@ -231,6 +235,120 @@ TEST(PhaseClock, nonsense_changes_nothing) {
   EXPECT_GT(clock.cadence(), 0);
 }
 
+TEST(PhaseClock, in_blocks_it_goes_as_sample_by_sample) {
+  for (const int size : {64, 96, 1000}) {
+    PhaseClock blocks, single;
+    std::vector<float> block(static_cast<std::size_t>(size));
+    std::mt19937 random(7);
+    std::normal_distribution<double> noise(0, 0.1);
+    double walked = 0;
+    std::vector<std::pair<int, int>> in_blocks, one_by_one;  // sample and step
+    for (int at = 0; at < 20 * 48000; at += size) {
+      const double time = at / 48000.0;
+      walked += (time < 8 ? 0.9 : 1.3) * size / 48000;
+      // An estimate thirty times a second; it stands from 12 to 14 s.
+      const bool frame = std::fmod(30 * time, 1.0) < 30.0 * size / 48000;
+      const double seen = std::fmod(walked + noise(random) + 1, 1.0);
+      for (PhaseClock* each : {&blocks, &single}) {
+        if (frame) each->set_walking(time < 12 || time > 14), each->observe(seen);
+      }
+      blocks.process(block, 48000);
+      for (const auto& crossing : blocks.crossings())
+        in_blocks.push_back({at + crossing.sample, crossing.step});
+      for (int i = 0; i < size; ++i) {
+        float phase = 0;
+        single.process({&phase, 1}, 48000);
+        for (const auto& crossing : single.crossings())
+          one_by_one.push_back({at + i, crossing.step});
+        ASSERT_NEAR(std::remainder(block[static_cast<std::size_t>(i)] - phase, 1.0f), 0, 2e-5);
+      }
+      ASSERT_NEAR(blocks.cadence(), single.cadence(), 1e-4);
+    }
+    ASSERT_EQ(in_blocks.size(), one_by_one.size());
+    ASSERT_GT(in_blocks.size(), 30u);
+    int moved = 0;
+    for (std::size_t i = 0; i < in_blocks.size(); ++i) {
+      EXPECT_EQ(in_blocks[i].second, one_by_one[i].second);
+      EXPECT_NEAR(in_blocks[i].first, one_by_one[i].first, 1) << "contact " << i;
+      moved += in_blocks[i].first != one_by_one[i].first;
+    }
+    EXPECT_LE(moved, 6);  // of about forty, by one sample
+  }
+}
+
+TEST(PhaseClock, moves_on_alike_whether_its_phase_is_heard_or_not) {
+  PhaseClock heard, unheard, in_doubles;
+  std::vector<float> block(64);
+  std::vector<double> doubles(64);
+  int crossings = 0;
+  for (int i = 0; i < 3000; ++i) {
+    if (i % 25 == 0)
+      for (PhaseClock* each : {&heard, &unheard, &in_doubles})
+        each->observe(std::fmod(i * 0.0012, 1.0));
+    heard.process(block, 48000);
+    unheard.process(64, 48000);
+    in_doubles.process(doubles, 48000);
+    ASSERT_EQ(heard.phase(), unheard.phase());
+    ASSERT_EQ(heard.crossings().size(), unheard.crossings().size());
+    for (std::size_t k = 0; k < heard.crossings().size(); ++k)
+      EXPECT_EQ(heard.crossings()[k].sample, unheard.crossings()[k].sample);
+    for (std::size_t k = 0; k < block.size(); ++k) ASSERT_NEAR(block[k], doubles[k], 1e-7);
+    crossings += static_cast<int>(heard.crossings().size());
+  }
+  EXPECT_GT(crossings, 5);
+}
+
+// What starts a clock, and what does not.
+TEST(PhaseClock, stands_until_somebody_walks) {
+  const auto steps_in_three_seconds = [](PhaseClock& clock) {
+    int steps = 0;
+    for (int i = 0; i < 90; ++i) {
+      clock.advance(1 / 30.0);
+      steps += static_cast<int>(clock.crossings().size());
+    }
+    return steps;
+  };
+  using Act = void (*)(PhaseClock&);
+  const Act nobody[] = {[](PhaseClock&) {},
+                        [](PhaseClock& c) { c.set_cadence(2); },
+                        [](PhaseClock& c) { c.set_pull(2); },
+                        [](PhaseClock& c) { c.observe(std::nan("")); },
+                        [](PhaseClock& c) { c.observe_contact(7); },
+                        [](PhaseClock& c) { c.set_walking(false), c.observe(0.2); },
+                        [](PhaseClock& c) { c.observe(0.2), c.advance(1), c.reset(); },
+                        [](PhaseClock& c) { c.take_over(PhaseClock()); },
+                        [](PhaseClock& c) {
+                          PhaseClock stands;
+                          stands.observe(0.3);
+                          stands.set_walking(false);
+                          c.take_over(stands);
+                        }};
+  for (std::size_t i = 0; i < std::size(nobody); ++i) {
+    PhaseClock clock;
+    nobody[i](clock);
+    const float phase = clock.phase();
+    EXPECT_EQ(steps_in_three_seconds(clock), 0) << i;
+    EXPECT_EQ(clock.phase(), phase) << i;
+    EXPECT_EQ(clock.cadence(), 0) << i;
+    EXPECT_FALSE(clock.walking()) << i;
+  }
+  const Act somebody[] = {
+      [](PhaseClock& c) { c.tap(); }, [](PhaseClock& c) { c.observe_contact(1); },
+      [](PhaseClock& c) { c.observe(0.7); }, [](PhaseClock& c) { c.set_walking(true); },
+      [](PhaseClock& c) {
+        PhaseClock walks;
+        walks.observe(0.7);
+        c.take_over(walks);
+      }};
+  for (std::size_t i = 0; i < std::size(somebody); ++i) {
+    PhaseClock clock;
+    clock.set_cadence(2);
+    somebody[i](clock);
+    EXPECT_GE(steps_in_three_seconds(clock), 5) << i;
+    EXPECT_TRUE(clock.walking()) << i;
+  }
+}
+
 TEST(PhaseClock, settings_out_of_range_are_refused) {
   EXPECT_THROW(PhaseClock({.steps = 0}), Error);
   EXPECT_THROW(PhaseClock({.steps = 65}), Error);
@@ -243,6 +361,7 @@ TEST(PhaseClock, settings_out_of_range_are_refused) {
 TEST(PhaseClock, a_cycle_of_any_number_of_steps_meets_each_once) {
   for (const int steps : {1, 3, 7}) {
     PhaseClock clock({.steps = steps, .cadence = 4});
+    clock.set_walking(true);
     std::vector<int> met;
     for (int frame = 0; frame < 300; ++frame) {
       clock.advance(1 / 30.0);

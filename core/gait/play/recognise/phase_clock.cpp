@@ -19,7 +19,9 @@ constexpr double phase_doubt = 0.3;       // deviations at a beginning: cycles
 constexpr double frequency_doubt = 0.25;  // and share of the frequency
 constexpr double other_tempo = 1.5;       // ratio of a step's to the loop's; a limp is none
 constexpr double longest_move = 0.002;    // seconds at once
-constexpr double longest_advance = 60;    // seconds; who was away longer has lost the walk anyway
+// The largest float below one: rounding must not show the next cycle early.
+constexpr float below_one = 0x1.fffffep-1f;
+constexpr double longest_advance = 60;  // seconds; who was away longer has lost the walk anyway
 
 double square(double x) noexcept { return x * x; }
 
@@ -48,9 +50,9 @@ PhaseClock::PhaseClock(const PhaseClockSettings& settings) : settings_(settings)
 }
 
 void PhaseClock::reset() noexcept {
-  moved_ = false;
-  walking_ = true;
-  going_ = 1;
+  moved_ = walking_ = false;
+  waiting_ = true;
+  going_ = 0;
   lead_ = ramp_ = time_ = 0;
   next_step_ = 1;
   contact_time_ = -1;
@@ -84,12 +86,27 @@ void PhaseClock::set_pull(double pull) noexcept {
 }
 
 void PhaseClock::set_walking(bool walking) noexcept {
+  waiting_ = false;
   if (walking == walking_) return;
   walking_ = walking;
   if (!moved_) going_ = walking;
   lead_ = 0;
   contact_time_ = -1;
   doubt();
+}
+
+void PhaseClock::take_over(const PhaseClock& other) noexcept {
+  reset();
+  if (other.waiting_) return;
+  set_walking(true);
+  observe(other.phase());
+  set_walking(other.walking_);
+}
+
+// Whether what is observed counts: while standing it does not, unless nobody has walked yet.
+bool PhaseClock::hears() noexcept {
+  if (waiting_ && pull_ > 0) set_walking(true);
+  return walking_ && pull_ > 0;
 }
 
 // Kalman's prediction for d phase = frequency dt, d frequency = white noise.
@@ -144,8 +161,7 @@ void PhaseClock::correct(double phase, double deviation, double late) noexcept {
 }
 
 void PhaseClock::observe(double phase, double weight, double late) noexcept {
-  if (!walking_ || pull_ == 0 || !std::isfinite(phase) || !std::isfinite(late) || !(weight > 0))
-    return;
+  if (!std::isfinite(phase) || !std::isfinite(late) || !(weight > 0) || !hears()) return;
   correct(phase, settings_.noise / (pull_ * std::sqrt(std::min(weight, 1.0))), std::max(0.0, late));
 }
 
@@ -163,7 +179,7 @@ void PhaseClock::tap() noexcept {
 }
 
 void PhaseClock::touch(double phase, double late) noexcept {
-  if (!walking_ || pull_ == 0) return;
+  if (!hears()) return;
   const double time = time_ - late;
   if (contact_time_ >= 0) {
     double travelled = phase - contact_phase_;
@@ -183,43 +199,106 @@ void PhaseClock::touch(double phase, double late) noexcept {
   correct(phase - 1e-9, settings_.contact_noise / pull_, late);
 }
 
-void PhaseClock::move(double seconds, int sample) noexcept {
-  time_ += seconds;
-  going_ += (static_cast<double>(walking_) - going_) * std::min(1.0, seconds / come_to_rest);
-  if (!walking_ && going_ < at_rest) going_ = 0;
-  const double speed = going_ * std::clamp(frequency_ + lead_ / std::max(catch_up, seconds),
-                                           slowest_ramp * frequency_, fastest_ramp * frequency_);
-  ramp_ += speed * seconds;
+// A sample after the other, a gap would shrink by 1/catch_up of itself a second, and what going_
+// lacks by 1/come_to_rest: a pace says what is left of both after all samples.
+PhaseClock::Pace PhaseClock::pace_of(int samples, double period) noexcept {
+  const double count = samples;
+  Pace pace{.seconds = count * period, .samples = samples, .period = period};
+  const double closed = 1 - std::pow(1 - std::min(1.0, period / catch_up), count);
+  pace.catch_up = samples == 1 ? std::max(catch_up, period) : pace.seconds / closed;
+  const double share = std::min(1.0, period / come_to_rest);
+  pace.kept = std::pow(1 - share, count);
+  pace.kept_mean = (1 - share) * (1 - pace.kept) / (count * share);
+  return pace;
+}
+
+double PhaseClock::move(const Pace& pace) noexcept {
+  time_ += pace.seconds;
+  const double goal = walking_ ? 1 : 0, lacking = going_ - goal;
+  if (!walking_ && going_ == 0) return 0;
+  going_ = goal + lacking * pace.kept;
+  double going = goal + lacking * pace.kept_mean;
+  if (!walking_ && going_ < at_rest) going_ = going = 0;
+  const double speed = going * std::clamp(frequency_ + lead_ / pace.catch_up,
+                                          slowest_ramp * frequency_, fastest_ramp * frequency_);
   moved_ = moved_ || speed > 0;
-  if (walking_) lead_ += (frequency_ - speed) * seconds;
+  if (walking_) lead_ += (frequency_ - speed) * pace.seconds;
+  return speed * pace.seconds;
+}
+
+// Adds `way` to the ramp in `samples` equal parts, which are written to `phase` unless it is null;
+// `first`: the sample of the block with which they begin.
+template <typename Sample>
+void PhaseClock::pass(Sample* phase, int first, int samples, double way) noexcept {
+  const double part = way / samples;
+  double from = ramp_;
+  int written = 0;
+  const auto write = [&](int end) noexcept {
+    const int begin = written;
+    written = end;
+    if (!phase || begin == end) return;
+    const double start = from;
+    for (int i = begin; i < end; ++i) phase[i] = static_cast<Sample>(start + part * (i + 1));
+    // Rounding at a cycle's ends.
+    phase[begin] = std::max(phase[begin], Sample(0));
+    for (int i = end - 1; i >= begin && phase[i] > below_one; --i) phase[i] = below_one;
+  };
+  ramp_ += way;
   while (ramp_ * settings_.steps >= next_step_) {
-    if (next_step_ == settings_.steps) ramp_ -= 1, next_step_ = 0;
+    const double edge = static_cast<double>(next_step_) / settings_.steps;
+    const double parts = part > 0 ? std::ceil((edge - from) / part) : 1;
+    const int sample = static_cast<int>(std::clamp(parts - 1, 0.0, samples - 1.0));
+    if (next_step_ == settings_.steps) {
+      write(sample);
+      ramp_ = std::max(0.0, ramp_ - 1);
+      from -= 1;
+      next_step_ = 0;
+    }
     if (crossing_count_ < static_cast<int>(crossings_.size()))
-      crossings_[crossing_count_++] = {sample, next_step_};
+      crossings_[static_cast<std::size_t>(crossing_count_++)] = {first + sample, next_step_};
     ++next_step_;
+  }
+  write(samples);
+}
+
+template <typename Sample>
+void PhaseClock::run(Sample* phase, int samples, double sample_rate) noexcept {
+  crossing_count_ = 0;
+  if (!(sample_rate > 0)) {
+    if (phase) std::fill_n(phase, samples, static_cast<Sample>(this->phase()));
+    return;
+  }
+  const double period = 1 / sample_rate;
+  const int longest = std::max(1, static_cast<int>(longest_move * sample_rate));
+  for (int done = 0; done < samples; done += longest) {
+    const int count = std::min(longest, samples - done);
+    if (count != pace_.samples || period != pace_.period) pace_ = pace_of(count, period);
+    pass(phase ? phase + done : phase, done, count, move(pace_));
   }
 }
 
 void PhaseClock::process(std::span<float> phase, double sample_rate) noexcept {
-  crossing_count_ = 0;
-  const double seconds = sample_rate > 0 ? 1 / sample_rate : 0;
-  for (std::size_t i = 0; i < phase.size(); ++i) {
-    move(seconds, static_cast<int>(i));
-    phase[i] = this->phase();
-  }
+  run(phase.data(), static_cast<int>(phase.size()), sample_rate);
+}
+
+void PhaseClock::process(std::span<double> phase, double sample_rate) noexcept {
+  run(phase.data(), static_cast<int>(phase.size()), sample_rate);
+}
+
+void PhaseClock::process(int samples, double sample_rate) noexcept {
+  run(static_cast<float*>(nullptr), samples, sample_rate);
 }
 
 void PhaseClock::advance(double seconds) noexcept {
   crossing_count_ = 0;
   if (!(seconds > 0) || !std::isfinite(seconds)) return;
-  const int moves = static_cast<int>(std::ceil(std::min(seconds, longest_advance) / longest_move));
-  for (int i = 0; i < moves; ++i) move(std::min(seconds, longest_advance) / moves, 0);
+  const double whole = std::min(seconds, longest_advance);
+  const int moves = static_cast<int>(std::ceil(whole / longest_move));
+  const Pace pace = pace_of(1, whole / moves);
+  for (int i = 0; i < moves; ++i) pass(static_cast<float*>(nullptr), 0, 1, move(pace));
 }
 
-float PhaseClock::phase() const noexcept {
-  // The largest float below one: rounding must not show the next cycle early.
-  return std::min(static_cast<float>(ramp_), 0x1.fffffep-1f);
-}
+float PhaseClock::phase() const noexcept { return std::min(static_cast<float>(ramp_), below_one); }
 
 float PhaseClock::cadence() const noexcept {
   return static_cast<float>(going_ * frequency_ * settings_.steps);

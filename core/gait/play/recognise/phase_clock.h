@@ -4,8 +4,8 @@
 // each estimate with the gains of a Kalman filter whose frequency wanders: fast at first, then as
 // slow as the estimates' noise asks for, right for irregular and lost estimates too. The ramp that
 // is heard follows the loop at 0.2 to 2 times its frequency, so it never jumps and never runs
-// backwards, and meets each contact once a cycle. As long as it has not moved, it begins where the
-// first estimate says; when estimates cease, it goes on by itself.
+// backwards, and meets each contact once a cycle. It stands until somebody walks: the first
+// estimate, contact or tap starts it where that says; when estimates cease, it goes on by itself.
 //
 // Phase in cycles, 0 to 1, where step i of the cycle begins at i / steps (right contact 0, left
 // 0.5); frequency in cycles per second, cadence in steps per second. Never allocates.
@@ -41,9 +41,11 @@ class PhaseClock {
   // Somebody taps the beat: a contact of whichever foot is next.
   void tap() noexcept;
 
-  // Steps/s from now on, until estimates say otherwise. Held within slowest and fastest.
+  // Steps/s from now on, until estimates say otherwise. Held within slowest and fastest. It starts
+  // nothing.
   void set_cadence(double cadence) noexcept;
-  // Not walking: the frequency falls to zero and the phase stands. Walking again: on from there.
+  // Not walking: the frequency falls to zero and the phase stands, whatever is observed. Walking
+  // again: on from there.
   void set_walking(bool walking) noexcept;
   // How hard estimates pull: 1 as tuned, 2 follows twice as fast, 0 not at all. At most 10.
   void set_pull(double pull) noexcept;
@@ -54,8 +56,15 @@ class PhaseClock {
     int step = 0;    // 0 right, 1 left
   };
 
-  // Moves on by a block of audio and fills it with the phase.
+  // Goes on as another clock (of another model) did: at its phase, and standing or waiting for a
+  // first estimate where that one does.
+  void take_over(const PhaseClock& other) noexcept;
+
+  // Moves on by a block of audio and fills it with the phase, a line for 2 ms at once.
   void process(std::span<float> phase, double sample_rate) noexcept;
+  void process(std::span<double> phase, double sample_rate) noexcept;
+  // The same where no phase is heard.
+  void process(int samples, double sample_rate) noexcept;
   // Moves on by `seconds` (60 at most) without sound; crossings are then all at sample 0.
   void advance(double seconds) noexcept;
   // Those of the last process or advance, in order.
@@ -66,10 +75,25 @@ class PhaseClock {
   float phase() const noexcept;  // of the ramp, 0 to 1 with 1 left out
   float cadence() const noexcept;
   bool walking() const noexcept { return walking_; }
+  // As at the beginning: standing until somebody walks.
   void reset() noexcept;
 
  private:
-  void move(double seconds, int sample) noexcept;
+  // How a number of samples in a row move the ramp.
+  struct Pace {
+    double seconds = 0;
+    double catch_up = 1;             // seconds in which the ramp would close the gap
+    double kept = 1, kept_mean = 1;  // of what `going_` lacks: at the end, and on average
+    int samples = 0;
+    double period = 0;  // of a sample, seconds
+  };
+  static Pace pace_of(int samples, double period) noexcept;
+  double move(const Pace& pace) noexcept;  // says the way in cycles
+  template <typename Sample>
+  void run(Sample* phase, int samples, double sample_rate) noexcept;
+  template <typename Sample>
+  void pass(Sample* phase, int first, int samples, double way) noexcept;
+  bool hears() noexcept;
   void predict(double until) noexcept;
   void correct(double phase, double deviation, double late) noexcept;
   void touch(double phase, double late) noexcept;
@@ -78,7 +102,8 @@ class PhaseClock {
 
   PhaseClockSettings settings_;
   double pull_ = 1;
-  bool walking_ = true, moved_ = false;
+  bool walking_ = false, moved_ = false;
+  bool waiting_ = true;  // nobody has walked yet: the first estimate starts it
 
   // The loop: where it was at the moment the last estimate spoke of, from where it runs at its
   // frequency. Now it is `lead_` ahead of the ramp.
@@ -87,8 +112,9 @@ class PhaseClock {
 
   // The ramp.
   double ramp_ = 0;
-  double going_ = 1;  // 0 standing, 1 walking, and between for a moment
+  double going_ = 0;  // 0 standing, 1 walking, and between for a moment
   int next_step_ = 1;
+  Pace pace_;  // of the block before: blocks mostly are as long
 
   double time_ = 0;  // seconds since reset
   double contact_time_ = -1, contact_phase_ = 0;

@@ -54,6 +54,7 @@ Recogniser::Recogniser(const PlayModel& played, const RecogniserSettings& settin
       masked_(values_.size(), false),
       states_(Decoder::most_weighted) {
   set_bounds();
+  clock_.set_walking(true);  // frames are a walk until standing shows
   if (settings.style_memory) styles_.set_memory(static_cast<float>(*settings.style_memory));
   unseen_.reserve(values_.size());
   note_unseen();
@@ -68,6 +69,7 @@ void Recogniser::reset() noexcept {
   decoder_.reset();
   styles_.reset();
   clock_.reset();
+  clock_.set_walking(true);
   taken_ = decided_ = decided_back_ = state_count_ = 0;
   decision_ = {};
   estimate_ = {};
