@@ -28,9 +28,7 @@ class Phase {
     if (foot != "right" && foot != "left") arguments.fail_at(0, "right or left");
     clock().observe_contact(foot == "right" ? 0 : 1);
   }
-  void walking(const Arguments& arguments) {
-    clock().set_walking(arguments.only().flag(0));
-  }
+  void walking(const Arguments& arguments) { clock().set_walking(arguments.only().flag(0)); }
   void pull(const Arguments& arguments) {
     pull_ = arguments.only().number(0, 0, 10);
     clock().set_pull(pull_);
