@@ -1,5 +1,5 @@
-// A box that plays a model through one object, which takes long to make: it is made on the worker,
-// takes the place of the one before between two ticks, and that one is freed on the worker.
+// A box that plays a model through one object, its player. The worker makes the player, Pd's thread
+// swaps it in between two ticks, and the worker frees the old one.
 #pragma once
 
 #include <functional>
@@ -45,7 +45,7 @@ class ModelPlayer : public ModelUser {
  private:
   Prepare prepare() final {
     return [this, make = make()](const SharedModel& model) -> TakeOver {
-      // Only the box's own thread follows `this`, and only while the box is there.
+      // Only Pd's thread dereferences `this`, and only while the box exists.
       return [this, model, fresh = make(model)] {
         take(model, *fresh);
         play(fresh);

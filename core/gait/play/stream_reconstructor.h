@@ -24,13 +24,13 @@
 
 namespace gait {
 
-// The model has defaults for those that are optional.
+// The model supplies each optional setting that is left empty.
 struct PlaySettings : RecogniserSettings {
   std::optional<double> strength;   // of the mapping, -10 to 10
   std::optional<int> past, future;  // frames of the trajectory's queue: P, F
   int current = 1;                  // C: it is solved every C frames
-  // Whether to walk on when the input stops, and to go over to it without a jump when it returns.
-  // If not, a frame after a gap begins anew.
+  // Walks on when the input stops, and goes back to it without a jump when it returns. If false, a
+  // frame after a gap begins anew.
   bool walks_alone = false;
   bool on_stage = true;  // whether to move a body over the ground, where the model has one
 };
@@ -40,8 +40,9 @@ struct ReconstructedFrame {
   Decision decision;
   std::span<const float> styles;   // posteriors, one per style
   std::span<const float> outputs;  // model.output.values values
-  // On stage: one per joint of the body, local rotations, the hips' in the world with heading out;
-  // heading (radians) and hips (metres), by the feet unless measured. Else none, and 0.
+  // On stage, one local rotation per joint of the body; the hips' is in the world, without the
+  // heading. Heading (radians) is 0 unless measured; hips (metres) come from the feet. Without a
+  // stage `pose` is empty and `hips` 0.
   std::span<const Eigen::Quaternionf> pose;
   float heading = 0;
   Eigen::Vector3f hips = Eigen::Vector3f::Zero();
@@ -65,7 +66,8 @@ class StreamReconstructor {
 
   // At the end of a stream: makes the next of the frames that are held back. False when none is.
   bool flush() noexcept;
-  // For one that walks alone: the stream has ended, for now; then makes frames without it.
+  // With walks_alone: lose() says that the stream has stopped; each go_on() then makes a frame
+  // without input.
   void lose() noexcept;
   bool go_on() noexcept;
 

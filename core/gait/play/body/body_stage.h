@@ -4,9 +4,9 @@
 //
 // The root's path comes from the feet (RootMotion), is the one measured with the pose, or stays on
 // the spot. Whole poses have no measured root: their root comes from the feet, and the legs are
-// corrected such that feet in stance do not move (FootLock). Synthesised outputs are shown
-// uncorrected, except for the first seconds after whole poses: the root then changes over gently,
-// feet in stance or below the ground are corrected, and the correction fades. A body that does not
+// corrected such that feet in stance do not move (FootLock). The stage does not correct synthesised
+// outputs, except in the first seconds after whole poses: it then follows the root gently, corrects
+// feet in stance or below the ground, and fades that correction. A body that does not
 // walk (it stands, or turns on the spot) stays where it is; it stops and starts without a jerk, and
 // its path goes on from there. One frame lasts 1 / model.frame_rate, whatever the sender's rate.
 //
@@ -142,7 +142,7 @@ class BodyStage {
   float heading_rate_ = 0, scale_ = 1;
   Eigen::Vector3f place_ = Eigen::Vector3f::Zero();
   bool started_ = false;
-  float gentle_ = 0;  // how gentle the root is
+  float gentle_ = 0;  // 1 while whole poses are shown, then falls to 0; see RootMotion
   float heading_ = 0;
   Eigen::Vector3d path_ = Eigen::Vector3d::Zero();    // of the hips, from the place, unscaled
   Eigen::Vector3f walked_ = Eigen::Vector3f::Zero();  // by the feet, whether it may go or not

@@ -1,5 +1,5 @@
-// Inertialisation: a hand-over from one motion to another without a jump. What the old motion
-// differs by at that moment, in place and in speed, fades away while the new one goes on.
+// Inertialisation: a hand-over from one motion to another without a jump. It adds to the new motion
+// what the old one differed by in place and speed, and fades that to zero.
 //
 // A quintic: x(0) and x'(0) as they are, x''(0) = x(1) = x'(1) = x''(1) = 0. It needs no second
 // motion to fade from, and a hand-over in the middle of another is as smooth.

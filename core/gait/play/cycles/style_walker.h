@@ -1,11 +1,12 @@
-// Style walker: walks by itself in the model's styles, and no two cycles are alike (T10 §7).
+// Style walker: walks by itself in the model's styles, and no two cycles are alike unless its
+// variation is 0 (T10 §7).
 //
 // Each cycle has scores of its own in the space of styles and a duration of its own (eq. 2 and 4,
-// cycle_draws.h); over the last tenth of the phase they become those of the next. Beyond the paper
-// scores are drawn with the correlations that they had in training: drawn independently, as in
-// eq. 2, they make cycles that no walker makes. Styles mix by weights: means, largest changes and
-// correlations are interpolated, deviations as those of independent draws. Knees and elbows never
-// bend further than those in training (hinge_limits.h).
+// cycle_draws.h); in the last tenth of a cycle the scores blend into those of the next. Beyond the
+// paper scores are drawn with the correlations that they had in training: drawn independently, as
+// in eq. 2, they make cycles that no walker makes. Styles mix by weights: means, largest changes
+// and correlations are interpolated, deviations as those of independent draws. Knees and elbows
+// never bend further than those in training (hinge_limits.h).
 //
 // Controls may be set between any two frames. What is set before the first frame holds from it on;
 // after that nothing jumps: styles, variation, exaggeration and pins arrive within about a step. A

@@ -23,14 +23,15 @@ class FedTrajectory {
   // Takes the next frame's Gaussian over all output values: statics, first, then second differences
   // per frame. True when a frame leaves with it.
   bool push(std::span<const float> means, std::span<const float> variances) noexcept;
-  // Lets the next frame leave without one that comes. False when none is held back.
+  // Releases the oldest frame held back, without a new one. False when none is held back.
   bool flush() noexcept;
 
   // The output values of the frame that left last.
   const Eigen::VectorXf& values() const noexcept { return values_; }
   // How many of the frames taken have not left yet.
   int held() const noexcept { return held_; }
-  bool flushed() const noexcept { return flushed_; }  // whether a frame left so since the beginning
+  // Whether flush() released a frame since construction, reset() or forget_flushed().
+  bool flushed() const noexcept { return flushed_; }
 
   int past() const noexcept { return trajectory_.past(); }
   int future() const noexcept { return trajectory_.future(); }
@@ -39,7 +40,7 @@ class FedTrajectory {
   void reset() noexcept;
   // A longer or shorter queue, in which the newest frames stay.
   void resize(int past, int future);
-  // After resize: the frames that come next are others than those that would have come.
+  // Makes flushed() false: after resize(), what was released no longer says that the input ended.
   void forget_flushed() noexcept { flushed_ = false; }
 
  private:
