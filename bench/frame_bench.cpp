@@ -17,7 +17,7 @@
 namespace gait::bench {
 namespace {
 
-constexpr int past = 20;
+constexpr int past = whole_past;
 
 class FrameTimes {
  public:
@@ -48,7 +48,6 @@ void whole_frame(benchmark::State& state, int states, DecoderKind decoder) {
   const auto model = bench_model(states);
   PlaySettings settings;
   settings.decoder = decoder;
-  settings.past = past;
   StreamReconstructor reconstructor(model, settings);
   const auto inputs = bench_inputs(*model, 300);
   FrameTimes times;
@@ -75,7 +74,7 @@ struct Floor {
         trajectory(model.output.statics(), past, 1, 0),
         gaussian{Eigen::VectorXf::Random(model.output.size()),
                  Eigen::VectorXf::Ones(model.output.size())} {
-    for (int i = 0; i < past + 1; ++i) trajectory.push(gaussian);
+    for (int i = 0; i < 3; ++i) trajectory.push(gaussian);
     for (const Label& label : model.labels)
       for (const State& state : label.states) {
         const Eigen::MatrixXd xx =

@@ -27,7 +27,7 @@ namespace gait {
 // The model has defaults for those that are optional.
 struct PlaySettings : RecogniserSettings {
   std::optional<double> strength;   // of the mapping, -10 to 10
-  std::optional<int> past, future;  // frames of the trajectory's queue: P, F
+  std::optional<int> past, future;  // frames of the trajectory's queue: P (or whole_past), F
   int current = 1;                  // C: it is solved every C frames
   // Whether to walk on when the input stops, and to go over to it without a jump when it returns.
   // If not, a frame after a gap begins anew.
