@@ -19,8 +19,8 @@ CovarianceMap::CovarianceMap(const Model& model, std::shared_ptr<const StateTabl
       strength_(Eigen::VectorXf::Constant(model.output.statics(),
                                           static_cast<float>(model.play.strength))) {
   const int outputs = model.output.size();
-  for (Eigen::VectorXf* scratch :
-       {&shift_, &mean_, &squares_, &variance_, &mapped_.mean, &mapped_.variance})
+  shift_ = Eigen::VectorXf::Zero(PackedMap::padded(outputs));
+  for (Eigen::VectorXf* scratch : {&mean_, &squares_, &variance_, &mapped_.mean, &mapped_.variance})
     *scratch = Eigen::VectorXf::Zero(outputs);
 }
 
@@ -54,7 +54,7 @@ const OutputGaussian& CovarianceMap::mix(std::span<const WeightedState> states, 
     const PlayedState& state = tables_->states[weighted.state];
     const auto innovation = innovation_of(weighted.state);
     distance_ += weighted.weight * std::sqrt(innovation.squaredNorm() / static_cast<float>(count));
-    shift_.noalias() = state.gain.leftCols(count) * innovation;
+    state.gain.apply(innovation.data(), count, shift_.data());
     for (int part = 0; part < 3; ++part) {
       const auto at = [&](auto& vector) { return vector.segment(part * statics, statics).array(); };
       const auto s = strength_.array();
