@@ -7,6 +7,11 @@ Whitening::Whitening(int inputs)
 
 void Whitening::take(const StateTables& tables,
                      const Eigen::Ref<const Eigen::VectorXf>& x) noexcept {
+  const auto kept = static_cast<Eigen::Index>(tables.kept.size());
+  if (kept == x.size()) {
+    kept_.head(kept) = x;
+    return;
+  }
   for (std::size_t i = 0; i < tables.kept.size(); ++i)
     kept_[static_cast<Eigen::Index>(i)] = x[tables.kept[i]];
 }
