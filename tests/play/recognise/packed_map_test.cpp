@@ -7,10 +7,6 @@
 #include <random>
 #include <string>
 
-#if defined(__x86_64__) || defined(__i386__) || defined(__aarch64__)
-#include <alloca.h>
-#endif
-
 namespace gait {
 namespace {
 
@@ -107,10 +103,8 @@ TEST_P(PackedMapKernels, apply_leading_columns_of_a_full_matrix) {
 // Applies a map with the stack `deeper` bytes further down.
 [[gnu::noinline]] float apply_deeper(std::size_t deeper, const PackedMap& map, const float* x,
                                      int count, float* result) {
-#if defined(__x86_64__) || defined(__i386__) || defined(__aarch64__)
-  volatile char* const taken = static_cast<char*>(alloca(deeper + 1));
+  volatile char* const taken = static_cast<char*>(__builtin_alloca(deeper + 1));
   taken[deeper] = 1;
-#endif
   return map.apply(x, count, result);
 }
 
