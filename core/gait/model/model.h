@@ -77,8 +77,8 @@ enum class DecoderKind { viterbi, forward, lag };
 // Defaults of playing the model; some are chosen by cross-validation.
 struct PlayDefaults {
   DecoderKind decoder = DecoderKind::forward;
-  double lag = 0.1;            // seconds, for DecoderKind::lag
-  double temper = 0.1;         // exponent on emissions in the forward filter
+  double lag = 0.1;     // seconds, for DecoderKind::lag
+  double temper = 0.1;  // exponent on emissions in the forward filter
   // Seconds of state queue before the current frame (P); none: all frames since the motion began.
   std::optional<double> past;
   double future = 0;           // seconds after it (F)
