@@ -6,18 +6,19 @@
 
 #include <algorithm>
 #include <chrono>
+#include <cstring>
 #include <random>
+#include <string>
 
 #include "bench_model.h"
 #include "gait/play/recognise/state_tables.h"
-#include "gait/play/recognise/triangular.h"
 #include "gait/play/stream_reconstructor.h"
 #include "gait/play/synthesise/trajectory.h"
 
 namespace gait::bench {
 namespace {
 
-constexpr int past = 20;
+constexpr int past = whole_past;
 
 class FrameTimes {
  public:
@@ -48,7 +49,6 @@ void whole_frame(benchmark::State& state, int states, DecoderKind decoder) {
   const auto model = bench_model(states);
   PlaySettings settings;
   settings.decoder = decoder;
-  settings.past = past;
   StreamReconstructor reconstructor(model, settings);
   const auto inputs = bench_inputs(*model, 300);
   FrameTimes times;
@@ -64,18 +64,18 @@ void whole_frame(benchmark::State& state, int states, DecoderKind decoder) {
   times.report(state);
 }
 
-// The same sizes without everything around them: a triangular solve per state, one product with a
-// gain, the banded systems of all output values.
+// The same sizes without everything around them: a whitening per state, one product with a gain and
+// one with style weights, the banded systems of all output values.
 struct Floor {
   explicit Floor(const Model& model)
       : tables(make_state_tables(model)),
-        x(Eigen::VectorXf::Random(tables->padded)),
-        white(Eigen::VectorXf::Zero(tables->padded)),
-        y(tables->outputs),
+        x(Eigen::VectorXf::Random(PackedMap::padded(model.input.size()))),
+        white(x),
+        y(PackedMap::padded(tables->outputs)),
         trajectory(model.output.statics(), past, 1, 0),
         gaussian{Eigen::VectorXf::Random(model.output.size()),
                  Eigen::VectorXf::Ones(model.output.size())} {
-    for (int i = 0; i < past + 1; ++i) trajectory.push(gaussian);
+    for (int i = 0; i < 3; ++i) trajectory.push(gaussian);
     for (const Label& label : model.labels)
       for (const State& state : label.states) {
         const Eigen::MatrixXd xx =
@@ -86,30 +86,46 @@ struct Floor {
 
   std::shared_ptr<const StateTables> tables;
   std::vector<Eigen::MatrixXf> factors;
+  Eigen::MatrixXf gain = Eigen::MatrixXf::Random(tables->outputs, tables->kept.size());
   Eigen::VectorXf x, white, y;
   Trajectory trajectory;
   OutputGaussian gaussian;
 };
 
-void floor_of_frame(benchmark::State& state, int states, bool ours) {
+enum class FloorKind { kernels, eigen, bytes };
+
+void floor_of_frame(benchmark::State& state, int states, FloorKind kind) {
   Floor floor(*bench_model(states));
   const auto inputs = static_cast<Eigen::Index>(floor.tables->kept.size());
+  const int count = static_cast<int>(inputs);
+  // What must be read of the tables, once: the factors' triangles, a gain, the weights of styles.
+  const std::string bytes(
+      sizeof(float) *
+          static_cast<std::size_t>(std::ssize(floor.factors) * inputs * (inputs + 1) / 2 +
+                                   inputs * (floor.tables->outputs + floor.tables->styles)),
+      ' ');
   FrameTimes times;
   for (auto _ : state)
     times.time([&] {
       float sum = 0;
-      for (std::size_t i = 0; i < floor.factors.size(); ++i) {
-        if (ours) {
-          multiply(floor.tables->states[i].whitener, floor.x.data(), static_cast<int>(inputs),
-                   floor.white.data());
-        } else {
-          floor.white.head(inputs) = floor.x.head(inputs);
+      if (kind == FloorKind::bytes) {
+        // The C library's search is the fastest reading that every machine has.
+        benchmark::DoNotOptimize(std::memchr(bytes.data(), 'x', bytes.size()));
+      } else if (kind == FloorKind::kernels) {
+        for (const PlayedState& played : floor.tables->states)
+          sum += played.whitener.apply(floor.x.data(), count, floor.white.data());
+        floor.tables->states[0].gain.apply(floor.white.data(), count, floor.y.data());
+        floor.tables->states[0].style_scores.back().apply(floor.x.data(), count,
+                                                          floor.white.data());
+      } else {
+        for (const Eigen::MatrixXf& factor : floor.factors) {
           auto white = floor.white.head(inputs);
-          floor.factors[i].triangularView<Eigen::Lower>().solveInPlace(white);
+          white = floor.x.head(inputs);
+          factor.triangularView<Eigen::Lower>().solveInPlace(white);
+          sum += white.squaredNorm();
         }
-        sum += floor.white.head(inputs).squaredNorm();
+        floor.y.head(floor.gain.rows()).noalias() = floor.gain * floor.white.head(inputs);
       }
-      floor.y.noalias() = floor.tables->states[0].gain * floor.white.head(inputs);
       floor.trajectory.push(floor.gaussian);
       benchmark::DoNotOptimize(floor.trajectory.generate()(0, 0));
       benchmark::DoNotOptimize(sum + floor.y[0]);
@@ -121,10 +137,11 @@ BENCHMARK_CAPTURE(whole_frame, viterbi_5_states, 5, DecoderKind::viterbi);
 BENCHMARK_CAPTURE(whole_frame, viterbi_8_states_default, 8, DecoderKind::viterbi);
 BENCHMARK_CAPTURE(whole_frame, forward_8_states, 8, DecoderKind::forward);
 BENCHMARK_CAPTURE(whole_frame, forward_12_states, 12, DecoderKind::forward);
-BENCHMARK_CAPTURE(floor_of_frame, our_kernels_5_states, 5, true);
-BENCHMARK_CAPTURE(floor_of_frame, eigen_5_states, 5, false);
-BENCHMARK_CAPTURE(floor_of_frame, our_kernels_8_states, 8, true);
-BENCHMARK_CAPTURE(floor_of_frame, eigen_8_states, 8, false);
+BENCHMARK_CAPTURE(floor_of_frame, our_kernels_5_states, 5, FloorKind::kernels);
+BENCHMARK_CAPTURE(floor_of_frame, eigen_5_states, 5, FloorKind::eigen);
+BENCHMARK_CAPTURE(floor_of_frame, bytes_5_states, 5, FloorKind::bytes);
+BENCHMARK_CAPTURE(floor_of_frame, our_kernels_8_states, 8, FloorKind::kernels);
+BENCHMARK_CAPTURE(floor_of_frame, eigen_8_states, 8, FloorKind::eigen);
 
 }  // namespace
 }  // namespace gait::bench

@@ -129,11 +129,12 @@ class Synth final : public ModelPlayer<Synthesiser> {
 
  private:
   void describe() override {
-    post("%s: %s, %s, past %d, future %d, %d queued", box().name(), model()->model->name.c_str(),
+    post("%s: %s, %s, past %s, future %d, %d queued", box().name(), model()->model->name.c_str(),
          !playing()->alone()  ? "fed"
          : playing()->walks() ? "walks alone"
                               : "rests",
-         playing()->past(), playing()->future(), playing()->walker().queued());
+         playing()->past() == whole_past ? "all" : std::to_string(playing()->past()).c_str(),
+         playing()->future(), playing()->walker().queued());
   }
   Make make() override {
     SynthesiserSettings settings;

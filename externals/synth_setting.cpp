@@ -10,6 +10,12 @@ const char* name_of(OnLost what) {
   return what == OnLost::walk ? "walk" : what == OnLost::hold ? "hold" : "stop";
 }
 
+int past_frames(const Arguments& past) {
+  if (!past.is_symbol(0)) return past.integer(0, 0, Synthesiser::longest_past);
+  if (past.symbol(0) != "all") past.fail_at(0, "a number of frames, or all");
+  return whole_past;
+}
+
 }  // namespace
 
 bool SynthSetting::take(const Arguments& arguments, Synthesiser* synthesiser) {
@@ -40,7 +46,7 @@ bool SynthSetting::take_number(const Arguments& arguments) {
   } else if (selector == "cadence") {
     cadence_ = static_cast<float>(arguments.only().number(0, 0, 10));
   } else if (selector == "past") {
-    past_ = arguments.only().integer(0, 0, Synthesiser::longest_past);
+    past_ = past_frames(arguments.only());
   } else if (selector == "future") {
     future_ = arguments.only().integer(0, 0, Synthesiser::longest_future);
   } else if (selector == "duration") {
@@ -119,7 +125,10 @@ void SynthSetting::dump(Outlet& info) const {
   info.add("fix").add(fixed_).send("duration");
   info.add(cadence_).send("cadence");
   joints_.dump(info);
-  if (past_) info.add(*past_).send("past");
+  if (past_ == whole_past)
+    info.add("all").send("past");
+  else if (past_)
+    info.add(*past_).send("past");
   if (future_) info.add(*future_).send("future");
   info.add(name_of(on_lost_)).send("onlost");
   if (whole_body_) info.add(*whole_body_ ? "pose" : "out").send("body");

@@ -5,7 +5,7 @@
 //   joint ...               see JointSetting
 //   auto 0|1                labels follow by themselves
 //   duration scale|shift|fix X, cadence C
-//   past N, future N        frames of the fed trajectory's queue
+//   past N|all, future N    frames of the fed trajectory's queue
 //   onlost walk|hold|stop
 //   body out|pose
 #pragma once

@@ -77,8 +77,8 @@ void print_play(const PlayDefaults& play) {
   if (play.decoder == DecoderKind::forward) decoder += ", tempered by " + number(play.temper);
   print_row("decoder", decoder);
   print_row("mapping", "strength " + number(play.strength));
-  print_row("trajectory",
-            number(play.past) + " s of past, " + number(play.future) + " s of future");
+  print_row("trajectory", (play.past ? number(*play.past) + " s" : std::string("all")) +
+                              " of past, " + number(play.future) + " s of future");
   print_row("style scores", "remembered for " + number(play.style_memory) + " s, tempered by " +
                                 number(play.style_temper));
 }
@@ -159,16 +159,22 @@ ordered_json as_json(const std::vector<Stream>& streams,
   return {{"streams", list}, {"values", values}, {"values_moving", moving}};
 }
 
-ordered_json as_json(const PlayDefaults& play) {
+// Lists play settings; those that the model has none of are null.
+struct SettingsList {
+  void operator()(const char* key, double value) { settings[key] = value; }
+  void operator()(const char* key, DecoderKind value) {
+    settings[key] = word_of(decoder_kind_words, value);
+  }
+  void optional(const char* key, const std::optional<double>& value, bool is_set) {
+    settings[key] = is_set ? ordered_json(*value) : ordered_json();
+  }
   ordered_json settings;
-  const auto list = [&](const char* key, const auto& value) {
-    if constexpr (std::is_same_v<decltype(value), const DecoderKind&>)
-      settings[key] = word_of(decoder_kind_words, value);
-    else
-      settings[key] = value;
-  };
+};
+
+ordered_json as_json(const PlayDefaults& play) {
+  SettingsList list;
   fields_of(list, play);
-  return settings;
+  return list.settings;
 }
 
 ordered_json as_json(const Training& training) {

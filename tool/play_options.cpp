@@ -13,6 +13,15 @@ std::vector<std::string> decoder_names() {
   return names;
 }
 
+CLI::Validator past_frames() {
+  const auto frames = [](std::string& text) {
+    if (text != "all") return CLI::Range(0, 600)(text);
+    text = std::to_string(whole_past);
+    return std::string();
+  };
+  return {frames, "", "past"};
+}
+
 }  // namespace
 
 void add_decoder(CLI::App& command, std::optional<DecoderKind>& decoder, const std::string& help) {
@@ -39,8 +48,9 @@ void add_play_options(CLI::App& app, PlaySettings& settings) {
   add_value(app, "--strength", "S", settings.strength,
             "0: the average walk, 1: this walk, above: a caricature (the model's own)")
       ->check(within(0, 10));
-  add_value(app, "--past", "P", settings.past, "Frames of the past that smooth (the model's own)")
-      ->check(CLI::Range(0, 600));
+  add_value(app, "--past", "P|all", settings.past,
+            "Frames of the past that smooth (the model's own)")
+      ->transform(past_frames());
   add_value(app, "--current", "C", settings.current, "Frames handed out at a time")
       ->check(CLI::Range(1, 600))
       ->default_str("1");

@@ -21,6 +21,11 @@ inline void expect_same(double a, double b) {
   EXPECT_EQ(std::bit_cast<std::uint64_t>(a), std::bit_cast<std::uint64_t>(b)) << a << ", " << b;
 }
 
+inline void expect_same(const std::optional<double>& a, const std::optional<double>& b) {
+  ASSERT_EQ(a.has_value(), b.has_value());
+  if (a) expect_same(*a, *b);
+}
+
 inline void expect_same(const std::string& a, const std::string& b) { EXPECT_EQ(a, b); }
 
 template <typename Derived>

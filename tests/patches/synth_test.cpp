@@ -35,11 +35,10 @@ int style_number(const std::string& name) {
   return static_cast<int>(std::ranges::find(styles, name) - styles.begin());
 }
 
-TEST(SynthObject, sends_the_cores_frames_for_gaussians) {
-  GAIT_NEEDS_PD();
+void expect_the_cores_frames(const std::string& past_message, int past) {
   const int lag = 2, future = 3;
   SynthPatch patch;
-  std::vector<std::string> messages{"future 3", "past 12", "stream 1", "walking 1"};
+  std::vector<std::string> messages{"future 3", past_message, "stream 1", "walking 1"};
   for (int i = 0; i < 50; ++i)
     messages.push_back(gauss_message(sad_walk()[static_cast<std::size_t>(i)], lag));
   messages.insert(messages.end(), {"resend", "future 1"});
@@ -48,7 +47,7 @@ TEST(SynthObject, sends_the_cores_frames_for_gaussians) {
   patch.quit_after(10);
   const PdRun run = run_without_errors(patch);
 
-  Synthesiser synthesiser(demo(), {12, future});
+  Synthesiser synthesiser(demo(), {past, future});
   const auto outputs = run.numbers("out", "out");
   ASSERT_EQ(outputs.size(), 51u - future);
   std::size_t made = 0;
@@ -65,6 +64,12 @@ TEST(SynthObject, sends_the_cores_frames_for_gaussians) {
   EXPECT_EQ(lines[0], "stream 1");
   EXPECT_EQ(lines[1], "walking 1");
   EXPECT_EQ(lines[2], "delay 5");
+}
+
+TEST(SynthObject, sends_the_cores_frames_for_gaussians) {
+  GAIT_NEEDS_PD();
+  expect_the_cores_frames("past 12", 12);
+  expect_the_cores_frames("past all", whole_past);
 }
 
 TEST(SynthObject, walks_alone_as_the_core_does) {
@@ -256,6 +261,7 @@ TEST(SynthObject, refuses_what_it_cannot_use_with_one_line_each) {
                                      "joint Head shift 1",
                                      "joint Head jump 1",
                                      "past -1",
+                                     "past some",
                                      "future 0.5",
                                      "future 1000",
                                      "onlost run",

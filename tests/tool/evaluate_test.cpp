@@ -88,6 +88,9 @@ TEST_F(Evaluate, settings_change_what_they_say_they_do) {
   const json rough = report({"--past", "0"});
   EXPECT_EQ(rough["jerk"]["synthesised"], rough["jerk"]["mapped"])
       << "nothing to smooth over: what is mapped comes out";
+  const json unset = report({}), all = report({"--past", "all"}), some = report({"--past", "20"});
+  EXPECT_EQ(unset["output_error_deg"], all["output_error_deg"]) << "a model has no past of its own";
+  EXPECT_NE(some["output_error_deg"], all["output_error_deg"]);
 }
 
 TEST_F(Evaluate, the_table_explains_its_figures) {

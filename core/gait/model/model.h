@@ -77,9 +77,10 @@ enum class DecoderKind { viterbi, forward, lag };
 // Defaults of playing the model; some are chosen by cross-validation.
 struct PlayDefaults {
   DecoderKind decoder = DecoderKind::forward;
-  double lag = 0.1;            // seconds, for DecoderKind::lag
-  double temper = 0.1;         // exponent on emissions in the forward filter
-  double past = 20.0 / 30;     // seconds of state queue before the current frame (P)
+  double lag = 0.1;     // seconds, for DecoderKind::lag
+  double temper = 0.1;  // exponent on emissions in the forward filter
+  // Seconds of state queue before the current frame (P); none: all frames since the motion began.
+  std::optional<double> past;
   double future = 0;           // seconds after it (F)
   double strength = 1;         // of the mapping
   double style_memory = 1;     // seconds over which style scores leak

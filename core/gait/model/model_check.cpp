@@ -192,7 +192,7 @@ void check_play(const PlayDefaults& play) {
     fail("play.decoder", "viterbi, forward or lag");
   expect_within(play.lag, 0, longest_delay, "play.lag");
   expect_within(play.temper, 0, 1000, "play.temper");
-  expect_within(play.past, 0, longest_delay, "play.past");
+  if (play.past) expect_within(*play.past, 0, longest_delay, "play.past");
   expect_within(play.future, 0, longest_delay, "play.future");
   expect_within(play.strength, -1000, 1000, "play.strength");
   expect_within(play.style_memory, 0, 1e6, "play.style_memory");

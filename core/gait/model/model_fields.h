@@ -167,7 +167,7 @@ void fields_of(auto& file, PartOf<PlayDefaults> auto& play) {
   file("decoder", play.decoder);
   file("lag", play.lag);
   file("temper", play.temper);
-  file("past", play.past);
+  file.optional("past", play.past, play.past.has_value());
   file("future", play.future);
   file("strength", play.strength);
   file("style_memory", play.style_memory);

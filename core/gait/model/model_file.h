@@ -16,7 +16,7 @@
 namespace gait {
 
 // The newest form of the file that this library reads, and the one it writes.
-inline constexpr int model_file_version = 1;
+inline constexpr int model_file_version = 2;
 
 // Frames per second that a model may have.
 inline constexpr double slowest_frame_rate = 1, fastest_frame_rate = 1000;

@@ -27,7 +27,7 @@ namespace gait {
 // The model supplies each optional setting that is left empty.
 struct PlaySettings : RecogniserSettings {
   std::optional<double> strength;   // of the mapping, -10 to 10
-  std::optional<int> past, future;  // frames of the trajectory's queue: P, F
+  std::optional<int> past, future;  // frames of the trajectory's queue: P (or whole_past), F
   int current = 1;                  // C: it is solved every C frames
   // Walks on when the input stops, and goes back to it without a jump when it returns. If false, a
   // frame after a gap begins anew.

@@ -38,14 +38,11 @@ void expect_same(const StateTables& a, const StateTables& b) {
   EXPECT_EQ(a.label_duration, b.label_duration);
   ASSERT_EQ(a.states.size(), b.states.size());
   for (std::size_t i = 0; i < a.states.size(); ++i) {
-    EXPECT_EQ(a.states[i].input_mean, b.states[i].input_mean);
-    EXPECT_EQ(a.states[i].whitener.panels, b.states[i].whitener.panels);
+    EXPECT_EQ(a.states[i].whitener, b.states[i].whitener);
     EXPECT_EQ(a.states[i].log_constant, b.states[i].log_constant);
     EXPECT_EQ(a.states[i].gain, b.states[i].gain);
     EXPECT_EQ(a.states[i].explained_variance, b.states[i].explained_variance);
-    EXPECT_EQ(a.states[i].style_bias, b.states[i].style_bias);
-    for (std::size_t depth = 0; depth < a.depths.size(); ++depth)
-      EXPECT_EQ(a.states[i].style_weights[depth], b.states[i].style_weights[depth]);
+    EXPECT_EQ(a.states[i].style_scores, b.states[i].style_scores);
   }
 }
 

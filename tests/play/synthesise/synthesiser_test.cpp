@@ -54,7 +54,8 @@ testing::Played played(int past, int future) {
 }
 
 TEST(Synthesiser, fed_with_a_walks_gaussians_gives_the_outputs_of_its_reconstruction) {
-  for (const auto& [past, future] : {std::pair(20, 0), {8, 3}, {0, 0}, {3, 7}}) {
+  for (const auto& [past, future] :
+       {std::pair(20, 0), {8, 3}, {0, 0}, {3, 7}, {whole_past, 0}, {whole_past, 7}}) {
     const testing::Played expected = played(past, future);
     Synthesiser synthesiser(few_walks_model(), {past, future});
     Frames frames;

@@ -16,12 +16,25 @@ CovarianceMap::CovarianceMap(const Model& model, std::shared_ptr<const StateTabl
       whitening_(model.input.size()),
       scale_(model.output_scaling.deviation.cast<float>()),
       offset_(model.output_scaling.mean.cast<float>()),
-      strength_(Eigen::VectorXf::Constant(model.output.statics(),
-                                          static_cast<float>(model.play.strength))) {
+      statics_(model.output.statics()),
+      strength_(Eigen::VectorXf::Zero(model.output.size())),
+      certainty_(strength_) {
+  set_strength(static_cast<float>(model.play.strength));
   const int outputs = model.output.size();
-  for (Eigen::VectorXf* scratch :
-       {&shift_, &mean_, &squares_, &variance_, &mapped_.mean, &mapped_.variance})
+  shift_ = Eigen::VectorXf::Zero(PackedMap::padded(outputs));
+  for (Eigen::VectorXf* scratch : {&mean_, &squares_, &variance_, &mapped_.mean, &mapped_.variance})
     *scratch = Eigen::VectorXf::Zero(outputs);
+}
+
+void CovarianceMap::set_strength(float strength) noexcept {
+  for (int value = 0; value < statics_; ++value) set_strength(value, strength);
+}
+
+void CovarianceMap::set_strength(int value, float strength) noexcept {
+  for (int at = value; at < strength_.size(); at += statics_) {
+    strength_[at] = strength;
+    certainty_[at] = strength * (2 - strength);
+  }
 }
 
 const OutputGaussian& CovarianceMap::map(std::span<const WeightedState> states,
@@ -45,41 +58,35 @@ template <class InnovationOf>
 const OutputGaussian& CovarianceMap::mix(std::span<const WeightedState> states, int depth,
                                          InnovationOf innovation_of) noexcept {
   const int count = tables_->depths[depth];
-  mean_.setZero();
-  squares_.setZero();
-  variance_.setZero();
   distance_ = 0;
-  const Eigen::Index statics = strength_.size();
+  const bool several = states.size() > 1 || states.front().weight != 1;
   for (const WeightedState& weighted : states) {
     const PlayedState& state = tables_->states[weighted.state];
     const auto innovation = innovation_of(weighted.state);
     distance_ += weighted.weight * std::sqrt(innovation.squaredNorm() / static_cast<float>(count));
-    shift_.noalias() = state.gain.leftCols(count) * innovation;
-    for (int part = 0; part < 3; ++part) {
-      const auto at = [&](auto& vector) { return vector.segment(part * statics, statics).array(); };
-      const auto s = strength_.array();
-      auto moved = shift_.segment(part * statics, statics).array();
-      moved = at(state.output_mean) + s * moved;
-      auto mean = mean_.segment(part * statics, statics).array();
-      auto squares = squares_.segment(part * statics, statics).array();
-      auto variance = variance_.segment(part * statics, statics).array();
-      mean += weighted.weight * moved;
-      squares += weighted.weight * moved.square();
-      variance +=
-          weighted.weight *
-          (at(state.output_variance) -
-           s * (2 - s) *
-               state.explained_variance.col(depth).segment(part * statics, statics).array());
+    state.gain.apply(innovation.data(), count, shift_.data());
+    auto moved = shift_.head(mean_.size());
+    moved = state.output_mean + strength_.cwiseProduct(moved);
+    const auto within =
+        state.output_variance - certainty_.cwiseProduct(state.explained_variance.col(depth));
+    if (&weighted == states.data()) {
+      mean_ = weighted.weight * moved;
+      variance_ = weighted.weight * within;
+      if (several) squares_ = weighted.weight * moved.cwiseAbs2();
+    } else {
+      mean_ += weighted.weight * moved;
+      variance_ += weighted.weight * within;
+      squares_ += weighted.weight * moved.cwiseAbs2();
     }
   }
   // Variance within the states plus that of their means about the mixture's.
-  variance_.array() += (squares_.array() - mean_.array().square()).max(0.0f);
+  if (several) variance_.array() += (squares_.array() - mean_.array().square()).max(0.0f);
   mapped_.mean = scale_.cwiseProduct(mean_) + offset_;
   mapped_.variance = scale_.cwiseAbs2().cwiseProduct(variance_.cwiseMax(1e-6f));
-  // Differences surer than this against the statics would cost the trajectory's float its digits.
+  // Differences are never surer than this against the statics, which would have no say any more.
   for (int part = 1; part < 3; ++part) {
-    auto variance = mapped_.variance.segment(part * statics, statics);
-    variance = variance.cwiseMax(least_difference_variance * mapped_.variance.head(statics));
+    auto variance = mapped_.variance.segment(part * statics_, statics_);
+    variance = variance.cwiseMax(least_difference_variance * mapped_.variance.head(statics_));
   }
   return mapped_;
 }

@@ -24,8 +24,8 @@ class CovarianceMap {
   CovarianceMap(const Model& model, std::shared_ptr<const StateTables> tables);
 
   // `strength`: one for all, or per modelled output value (outputs' statics).
-  void set_strength(float strength) noexcept { strength_.setConstant(strength); }
-  void set_strength(int value, float strength) noexcept { strength_[value] = strength; }
+  void set_strength(float strength) noexcept;
+  void set_strength(int value, float strength) noexcept;
   float strength(int value) const noexcept { return strength_[value]; }
 
   // Maps the scaled observation `x`, of which `known` leading entries are real, in the states
@@ -50,8 +50,9 @@ class CovarianceMap {
   std::shared_ptr<const StateTables> tables_;
   InputLayout layout_;
   Whitening whitening_;
-  Eigen::VectorXf scale_, offset_;                     // from scaled y to the outputs' units
-  Eigen::VectorXf strength_;                           // per static
+  Eigen::VectorXf scale_, offset_;  // from scaled y to the outputs' units
+  int statics_;
+  Eigen::VectorXf strength_, certainty_;               // per entry of y: s, s (2 - s)
   Eigen::VectorXf shift_, mean_, squares_, variance_;  // scratch over y
   OutputGaussian mapped_;
   float distance_ = 0;

@@ -2,38 +2,24 @@
 
 namespace gait {
 
-namespace {
-
-int whole_panels(int entries) {
-  constexpr int panel = PackedTriangle::rows;
-  return (entries + panel - 1) / panel * panel;
-}
-
-}  // namespace
-
 Whitening::Whitening(int inputs)
-    : kept_(Eigen::VectorXf::Zero(whole_panels(inputs))), difference_(kept_), innovation_(kept_) {}
+    : kept_(Eigen::VectorXf::Zero(PackedMap::padded(inputs))), innovation_(kept_) {}
 
 void Whitening::take(const StateTables& tables,
                      const Eigen::Ref<const Eigen::VectorXf>& x) noexcept {
+  const auto kept = static_cast<Eigen::Index>(tables.kept.size());
+  if (kept == x.size()) {
+    kept_.head(kept) = x;
+    return;
+  }
   for (std::size_t i = 0; i < tables.kept.size(); ++i)
     kept_[static_cast<Eigen::Index>(i)] = x[tables.kept[i]];
 }
 
 Eigen::Map<const Eigen::VectorXf> Whitening::innovation(const PlayedState& state,
                                                         int count) noexcept {
-  innovation(state, count, innovation_.data());
+  state.whitener.apply(kept_.data(), count, innovation_.data());
   return {innovation_.data(), count};
-}
-
-void Whitening::innovation(const PlayedState& state, int count, float* to) noexcept {
-  const Eigen::Index entries = state.input_mean.size();
-  difference_.head(entries) = kept_.head(entries) - state.input_mean;
-  multiply(state.whitener, difference_.data(), count, to);
-}
-
-Eigen::Map<const Eigen::VectorXf> Whitening::observation(int count) const noexcept {
-  return {kept_.data(), count};
 }
 
 Emissions::Emissions(std::shared_ptr<const StateTables> tables, const InputLayout& layout)
@@ -42,7 +28,7 @@ Emissions::Emissions(std::shared_ptr<const StateTables> tables, const InputLayou
       whitening_(layout.size()),
       log_likelihoods_(tables_->states.size()),
       squared_distances_(Eigen::VectorXf::Zero(static_cast<Eigen::Index>(log_likelihoods_.size()))),
-      innovations_(Eigen::MatrixXf::Zero(whitening_.padded(), squared_distances_.size())) {}
+      innovations_(Eigen::MatrixXf::Zero(whitening_.kept().size(), squared_distances_.size())) {}
 
 std::span<const float> Emissions::of(const Eigen::Ref<const Eigen::VectorXf>& x,
                                      int known) noexcept {
@@ -52,8 +38,8 @@ std::span<const float> Emissions::of(const Eigen::Ref<const Eigen::VectorXf>& x,
   for (std::size_t state = 0; state < tables_->states.size(); ++state) {
     const PlayedState& played = tables_->states[state];
     const auto column = static_cast<Eigen::Index>(state);
-    whitening_.innovation(played, seen_, innovations_.col(column).data());
-    const float squared = innovations_.col(column).head(seen_).squaredNorm();
+    const float squared =
+        played.whitener.apply(whitening_.kept().data(), seen_, innovations_.col(column).data());
     squared_distances_[column] = squared;
     log_likelihoods_[state] = played.log_constant[depth] - 0.5f * squared;
   }

@@ -18,14 +18,11 @@ class Whitening {
   void take(const StateTables& tables, const Eigen::Ref<const Eigen::VectorXf>& x) noexcept;
   // The leading `count` entries of the state's innovation; valid until the next call.
   Eigen::Map<const Eigen::VectorXf> innovation(const PlayedState& state, int count) noexcept;
-  // The same into `to`, which has room for padded() numbers.
-  void innovation(const PlayedState& state, int count, float* to) noexcept;
-  Eigen::Index padded() const noexcept { return kept_.size(); }
-  // The kept entries of the observation taken.
-  Eigen::Map<const Eigen::VectorXf> observation(int count) const noexcept;
+  // The kept entries of the observation taken, with room for whole panels.
+  const Eigen::VectorXf& kept() const noexcept { return kept_; }
 
  private:
-  Eigen::VectorXf kept_, difference_, innovation_;
+  Eigen::VectorXf kept_, innovation_;
 };
 
 class Emissions {

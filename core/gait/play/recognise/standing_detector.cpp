@@ -44,7 +44,7 @@ double quietest_style(const Model& model, int lag, const Eigen::VectorXd& weight
 StandingDetector::StandingDetector(const Model& model)
     : modelled_(model.input.modelled),
       missing_(model.input.values, false),
-      there_(modelled_.size(), 0),
+      there_(Eigen::ArrayXi::Zero(static_cast<Eigen::Index>(modelled_.size()))),
       energies_(std::max(1, static_cast<int>(std::lround(window * model.frame_rate)))) {
   const std::vector<int>& lags = model.input.lags;
   if (!lags.empty()) {
@@ -77,7 +77,7 @@ StandingDetector::StandingDetector(const Model& model)
 }
 
 void StandingDetector::reset() noexcept {
-  std::fill(there_.begin(), there_.end(), 0);
+  there_.setZero();
   newest_ = frames_ = 0;
   activity_ = 1;
   walking_ = true;
@@ -85,21 +85,18 @@ void StandingDetector::reset() noexcept {
 
 void StandingDetector::set_missing(int value, bool missing) noexcept { missing_[value] = missing; }
 
-float StandingDetector::back(int value, int frames) const noexcept {
-  const int columns = static_cast<int>(history_.cols());
-  return history_(value, (newest_ - frames + columns) % columns);
-}
-
 float StandingDetector::energy() const noexcept {
-  float moved = 0, learnt = 0;
-  for (int i = 0; i < static_cast<int>(modelled_.size()); ++i) {
-    if (there_[i] <= long_lag_) continue;
-    const float far = back(i, 0) - back(i, long_lag_);
-    const float near = short_lag_ > 0 ? back(i, 0) - back(i, short_lag_) : 0.0f;
-    moved += weight_[i] * (far * far - near * near);
-    learnt += learnt_[i];
-  }
-  return learnt > 0 ? std::max(0.0f, moved / (slow_share_ * learnt)) : 0.0f;
+  const int columns = static_cast<int>(history_.cols());
+  const auto back = [&](int frames) {
+    return history_.col((newest_ - frames + columns) % columns).array();
+  };
+  const auto known = (there_ > long_lag_).cast<float>();
+  const float learnt = (known * learnt_.array()).sum();
+  if (!(learnt > 0)) return 0;
+  float moved = (known * weight_.array() * (back(0) - back(long_lag_)).square()).sum();
+  if (short_lag_ > 0)
+    moved -= (known * weight_.array() * (back(0) - back(short_lag_)).square()).sum();
+  return std::max(0.0f, moved / (slow_share_ * learnt));
 }
 
 bool StandingDetector::advance(std::span<const float> values) noexcept {
@@ -108,9 +105,10 @@ bool StandingDetector::advance(std::span<const float> values) noexcept {
   bool any = false;
   for (std::size_t i = 0; i < modelled_.size(); ++i) {
     const int value = modelled_[i];
-    history_(static_cast<Eigen::Index>(i), newest_) = values[value];
-    there_[i] = missing_[value] ? 0 : std::min(there_[i] + 1, long_lag_ + 1);
-    any = any || there_[i] > long_lag_;
+    const auto at = static_cast<Eigen::Index>(i);
+    history_(at, newest_) = values[value];
+    there_[at] = missing_[value] ? 0 : std::min(there_[at] + 1, long_lag_ + 1);
+    any = any || there_[at] > long_lag_;
   }
   // Without a history, or without any input, nothing is known: it is as it was.
   if (!any) return walking_;

@@ -32,7 +32,6 @@ class StandingDetector {
 
  private:
   float energy() const noexcept;
-  float back(int value, int frames) const noexcept;
 
   std::vector<int> modelled_;
   int long_lag_ = 0, short_lag_ = 0;  // frames; 0: the model has no differences, all is walking
@@ -40,7 +39,7 @@ class StandingDetector {
   Eigen::VectorXf weight_;     // per modelled value: into a unit that all share
   Eigen::VectorXf learnt_;     // per modelled value: weighted square of training's long differences
   std::vector<bool> missing_;  // per input value
-  std::vector<int> there_;     // per modelled value: frames in a row
+  Eigen::ArrayXi there_;       // per modelled value: frames in a row
   Eigen::MatrixXf history_;    // ring of columns, modelled values each
   std::vector<float> energies_;  // ring
   int newest_ = 0, frames_ = 0;

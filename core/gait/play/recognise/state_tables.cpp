@@ -13,17 +13,13 @@ namespace {
 // Linear discriminants of the styles from the leading `count` entries: score = w^T x + b.
 void set_styles(PlayedState& played, const Eigen::MatrixXd& means, const Eigen::MatrixXd& factor,
                 const std::vector<int>& depths) {
-  const Eigen::Index styles = means.cols();
-  played.style_bias.resize(styles, static_cast<Eigen::Index>(depths.size()));
-  for (std::size_t depth = 0; depth < depths.size(); ++depth) {
-    const int count = depths[depth];
+  for (const int count : depths) {
     const auto lower = factor.topLeftCorner(count, count).triangularView<Eigen::Lower>();
     Eigen::MatrixXd weights = means.topRows(count);
     lower.solveInPlace(weights);
-    played.style_bias.col(static_cast<Eigen::Index>(depth)) =
-        (-0.5 * weights.colwise().squaredNorm().transpose()).cast<float>();
+    const Eigen::VectorXd bias = -0.5 * weights.colwise().squaredNorm();
     lower.transpose().solveInPlace(weights);
-    played.style_weights.push_back(weights.transpose().cast<float>());
+    played.style_scores.emplace_back(weights.transpose(), bias, PackedMap::Shape::full);
   }
 }
 
@@ -41,12 +37,10 @@ PlayedState played_state(const State& state, const StateTables& tables) {
   const Eigen::MatrixXd lower = cholesky.matrixL();
   Eigen::MatrixXd inverse = Eigen::MatrixXd::Identity(count, count);
   cholesky.matrixL().solveInPlace(inverse);
-  played.whitener = PackedTriangle(inverse);
+  played.whitener = PackedMap(inverse, -inverse * state.mean(kept), PackedMap::Shape::lower);
   // G = Sigma_yx L^-T, in one product
   const Eigen::MatrixXd gain = state.covariance(outputs, kept) * inverse.transpose();
-  played.gain = gain.cast<float>();
-  played.input_mean = Eigen::VectorXf::Zero(tables.padded);
-  played.input_mean.head(count) = state.mean(kept).cast<float>();
+  played.gain = PackedMap(gain, Eigen::VectorXd::Zero(tables.outputs), PackedMap::Shape::full);
   played.output_mean = state.mean.tail(tables.outputs).cast<float>();
   played.output_variance = state.covariance.diagonal().tail(tables.outputs).cast<float>();
 
@@ -94,8 +88,6 @@ std::shared_ptr<const StateTables> make_state_tables(const Model& model,
     tables->depths.push_back(kept_statics * static_cast<int>(depth + 1));
   tables->outputs = model.output.size();
   tables->styles = static_cast<int>(model.styles.size());
-  constexpr int panel = PackedTriangle::rows;
-  tables->padded = (static_cast<int>(tables->kept.size()) + panel - 1) / panel * panel;
 
   for (std::size_t label = 0; label < model.labels.size(); ++label) {
     tables->first_state.push_back(static_cast<int>(tables->states.size()));

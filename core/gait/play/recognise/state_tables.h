@@ -12,20 +12,18 @@
 #include <vector>
 
 #include "gait/model/model.h"
-#include "gait/play/recognise/triangular.h"
+#include "gait/play/recognise/packed_map.h"
 
 namespace gait {
 
 struct PlayedState {
   int label = 0;
-  Eigen::VectorXf input_mean;                    // of the kept entries of x, padded with zeros
-  PackedTriangle whitener;                       // L^-1
+  PackedMap whitener;                            // e = L^-1 x - L^-1 mu_x, of the kept entries
   Eigen::VectorXf log_constant;                  // per depth
-  Eigen::MatrixXf gain;                          // G: y by kept entries, scaled
+  PackedMap gain;                                // G e: y by kept entries, scaled
   Eigen::VectorXf output_mean, output_variance;  // of y, scaled
   Eigen::MatrixXf explained_variance;            // diagonal of G G^T, y by depth
-  std::vector<Eigen::MatrixXf> style_weights;    // per depth: styles by kept entries
-  Eigen::MatrixXf style_bias;                    // styles by depth
+  std::vector<PackedMap> style_scores;           // per depth: w^T x + b, styles by kept entries
   float log_stay = 0, log_leave = 0;
   float mean_duration = 0;  // seconds
   float before = 0;         // mean durations of the label's states before this, seconds
@@ -36,7 +34,6 @@ struct StateTables {
   std::vector<int> depths;  // how many kept entries are known: statics, then one lag more each
   int outputs = 0;          // entries of y
   int styles = 0;
-  int padded = 0;                   // kept entries rounded up to whole panels
   std::vector<PlayedState> states;  // label after label
   std::vector<int> first_state;     // per label
   std::vector<std::vector<int>> successors;

@@ -9,6 +9,7 @@ StyleRecogniser::StyleRecogniser(const Model& model, std::shared_ptr<const State
       layout_(model.input),
       kept_(model.input.size()),
       score_(Eigen::VectorXf::Zero(static_cast<Eigen::Index>(model.styles.size()))),
+      scores_(Eigen::VectorXf::Zero(PackedMap::padded(static_cast<int>(model.styles.size())))),
       averaged_(score_),
       posteriors_(score_),
       frame_rate_(model.frame_rate),
@@ -33,12 +34,11 @@ void StyleRecogniser::advance(std::span<const WeightedState> states,
   if (posteriors_.size() == 0) return;
   const int depth = tables_->depth_of(known, layout_);
   kept_.take(*tables_, x);
-  const auto observation = kept_.observation(tables_->depths[depth]);
   score_.setZero();
   for (const WeightedState& weighted : states) {
     const PlayedState& state = tables_->states[weighted.state];
-    score_.noalias() += weighted.weight * (state.style_weights[depth] * observation);
-    score_ += weighted.weight * state.style_bias.col(depth);
+    state.style_scores[depth].apply(kept_.kept().data(), tables_->depths[depth], scores_.data());
+    score_ += weighted.weight * scores_.head(score_.size());
   }
   // What all styles share says nothing about them; without it the numbers stay small.
   score_.array() -= score_.mean();

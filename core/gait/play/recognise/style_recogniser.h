@@ -38,7 +38,7 @@ class StyleRecogniser {
   std::shared_ptr<const StateTables> tables_;
   InputLayout layout_;
   Whitening kept_;
-  Eigen::VectorXf score_, averaged_, posteriors_;
+  Eigen::VectorXf score_, scores_, averaged_, posteriors_;
   double frame_rate_;
   float keep_ = 0, temper_ = 1;
   int best_ = -1;

@@ -17,7 +17,7 @@ namespace gait {
 
 class FedTrajectory {
  public:
-  // Frames of the queue: past 0 or more, current 1 or more, future 0 or more.
+  // Frames of the queue: past whole_past, or 0 or more; current 1 or more, future 0 or more.
   FedTrajectory(const Model& model, int past, int current, int future);
 
   // Takes the next frame's Gaussian over all output values: statics, first, then second differences

@@ -11,6 +11,8 @@ namespace gait {
 namespace {
 
 constexpr double lookahead_seconds = 0.2;
+// Of the whole past, what a walk that begins anew is led up to by.
+constexpr double led_up_seconds = 2.0 / 3;
 // However a performer walked, the walk that goes on is one that the model knows.
 constexpr float slowest_tempo = 2, fastest_tempo = 0.5f;
 
@@ -35,10 +37,10 @@ StepWalker::StepWalker(const PlayModel& played, const StepWalkerSettings& settin
       layout_(StreamLayout::of_all(*model_)),
       controls_(layout_),
       trajectory_(tables_->values,
-                  settings.past.value_or(queue_frames(model_->play.past, model_->frame_rate)), 1,
-                  settings.future.value_or(queue_frames(lookahead_seconds, model_->frame_rate))),
-      past_(
-          std::max(0, settings.past.value_or(queue_frames(model_->play.past, model_->frame_rate)))),
+                  queue_frames(settings.past, model_->play.past, model_->frame_rate), 1,
+                  queue_frames(settings.future, lookahead_seconds, model_->frame_rate)),
+      past_(trajectory_.past() == whole_past ? queue_frames(led_up_seconds, model_->frame_rate)
+                                             : trajectory_.past()),
       places_(static_cast<std::size_t>(trajectory_.delay()) + 1),
       gaussian_(tables_, period_),
       given_(Eigen::VectorXf::Zero(tables_->styles)),
@@ -124,7 +126,7 @@ StepPlace StepWalker::place_at(int label, float phase, float labels) const noexc
   return place;
 }
 
-// The queue of states as if it had always walked like this: `past` frames up to the place ahead_
+// The queue of states as if it had always walked like this: past_ frames up to the place ahead_
 // says, which is the one to be shown, and then the future.
 void StepWalker::fill() noexcept {
   trajectory_.reset();
@@ -273,7 +275,7 @@ bool StepWalker::take_over(const StepWalker& other) noexcept {
   values_ = other.values_, pose_ = other.pose_;
   entered_ = other.entered_;
   if (!started_) return true;
-  if (past_ == other.past_ && places_.size() == other.places_.size()) {
+  if (trajectory_.past() == other.trajectory_.past() && places_.size() == other.places_.size()) {
     trajectory_ = other.trajectory_;
     ahead_ = other.ahead_;
     places_ = other.places_;

@@ -36,7 +36,7 @@
 namespace gait {
 
 struct StepWalkerSettings {
-  std::optional<int> past;    // frames of state queue (P), else the model's
+  std::optional<int> past;    // frames of state queue (P, or whole_past), else the model's
   std::optional<int> future;  // frames looked ahead (F), else 0.2 s
 };
 

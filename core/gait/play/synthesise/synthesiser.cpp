@@ -15,11 +15,6 @@ namespace {
 // Deviations per value. Frames that follow each other stay under 1.1 in the built-in walks.
 constexpr float farthest_following = 1.2f;
 
-// Frames of a queue, as said or else the model's own.
-int frames_of(std::optional<int> said, double seconds, double frame_rate) {
-  return std::max(0, said.value_or(queue_frames(seconds, frame_rate)));
-}
-
 std::vector<int> pose_positions(const Model& model) {
   std::vector<int> positions;
   for (const StreamPlace& place : StreamLayout::of_all(model))
@@ -34,9 +29,9 @@ std::vector<int> pose_positions(const Model& model) {
 
 Synthesiser::Synthesiser(const PlayModel& played, const SynthesiserSettings& settings)
     : model_(played.model),
-      trajectory_(*model_, frames_of(settings.past, model_->play.past, model_->frame_rate),
+      trajectory_(*model_, queue_frames(settings.past, model_->play.past, model_->frame_rate),
                   settings.current,
-                  frames_of(settings.future, model_->play.future, model_->frame_rate)),
+                  queue_frames(settings.future, model_->play.future, model_->frame_rate)),
       controls_(StreamLayout::of_all(*model_)),
       hand_over_(StreamLayout::of_all(*model_), model_->frame_rate),
       period_(static_cast<float>(1 / model_->frame_rate)),
@@ -77,7 +72,7 @@ void Synthesiser::reset() noexcept {
 }
 
 void Synthesiser::set_past(int frames) {
-  trajectory_.resize(std::clamp(frames, 0, longest_past), future());
+  trajectory_.resize(std::clamp(frames, whole_past, longest_past), future());
 }
 
 void Synthesiser::set_future(int frames) {

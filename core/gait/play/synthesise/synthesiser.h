@@ -30,8 +30,9 @@
 namespace gait {
 
 struct SynthesiserSettings {
-  std::optional<int> past, future;  // frames of the fed trajectory's queue: P, F; else the model's
-  int current = 1;                  // C
+  // Frames of the fed trajectory's queue: P (or whole_past), F; else the model's.
+  std::optional<int> past, future;
+  int current = 1;  // C
   // Whether it can walk alone, which takes a model with trajectory statistics. If not, it comes to
   // rest when the input stops.
   bool walks_alone = true;
@@ -67,7 +68,7 @@ class Synthesiser {
   void set_walking(bool walking) noexcept;
   void set_on_lost(OnLost what) noexcept { on_lost_ = what; }
 
-  // Frames of the fed trajectory's queue. These allocate.
+  // Frames of the fed trajectory's queue; its past may be whole_past. These allocate.
   void set_past(int frames);
   void set_future(int frames);
   int past() const noexcept { return trajectory_.past(); }

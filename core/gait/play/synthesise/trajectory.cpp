@@ -5,42 +5,139 @@
 
 namespace gait {
 
+namespace {
+
+// Frames of the whole past that stay at hand, for a queue of another length.
+constexpr int kept_past = 20;
+
+}  // namespace
+
 Trajectory::Trajectory(int values, int past, int current, int future)
     : values_(values),
-      past_(std::max(0, past)),
+      past_(std::max(whole_past, past)),
       current_(std::max(1, current)),
       future_(std::max(0, future)),
-      length_(past_ + current_ + future_) {
-  for (int part = 0; part < 3; ++part) {
-    weight_[part].setZero(values, length_);
-    target_[part].setZero(values, length_);
-  }
-  for (Eigen::ArrayXXf* band : {&diagonal_, &off_, &far_, &right_}) band->setZero(values, length_);
-  path_.setZero(values, length_);
+      length_((carried() ? kept_past : past_) + current_ + future_),
+      ends_((values + lanes - 1) / lanes),
+      path_(Eigen::MatrixXf::Zero(lanes * blocks(), length_)) {
+  Frame empty;
+  for (int part = 0; part < 3; ++part) empty.weight[part].setOnes(), empty.target[part].setZero();
+  frames_.assign(ends_.size() * static_cast<std::size_t>(length_), empty);
+  eliminated_.assign(frames_.size(), {Block::Zero(), Block::Zero(), Block::Zero()});
+  reset();
+}
+
+void Trajectory::reset() noexcept {
+  filled_ = fresh_ = 0;
+  for (Ends& ends : ends_) forget(ends);
+}
+
+// As if two frames had come that no other depends on.
+void Trajectory::forget(Ends& ends) const noexcept {
+  ends = {Block::Ones(), Block::Zero(), Block::Ones(), Block::Zero(), Block::Zero()};
 }
 
 void Trajectory::push(const OutputGaussian& gaussian) noexcept {
-  newest_ = (newest_ + 1) % length_;
+  newest_ = newest_ + 1 < length_ ? newest_ + 1 : 0;
   filled_ = std::min(filled_ + 1, length_);
   fresh_ = std::min(fresh_ + 1, current_);
-  for (int part = 0; part < 3; ++part) {
-    weight_[part].col(newest_) =
-        gaussian.variance.segment(part * values_, values_).array().inverse();
-    target_[part].col(newest_) = gaussian.mean.segment(part * values_, values_).array();
+  for (int block = 0; block < blocks(); ++block) {
+    Frame& frame = frames_[block * length_ + newest_];
+    const int first = block * lanes, count = std::min(lanes, values_ - first);
+    for (int part = 0; part < 3; ++part) {
+      const float* const variance = gaussian.variance.data() + part * values_ + first;
+      const float* const mean = gaussian.mean.data() + part * values_ + first;
+      if (count == lanes) {
+        frame.weight[part] = Eigen::Map<const Eigen::Array<float, lanes, 1>>(variance).inverse();
+        frame.target[part] = Eigen::Map<const Eigen::Array<float, lanes, 1>>(mean);
+      } else {
+        for (int i = 0; i < count; ++i) {
+          frame.weight[part][i] = 1 / variance[i];
+          frame.target[part][i] = mean[i];
+        }
+      }
+    }
+    if (carried()) factor(block, filled_ - 1);
+  }
+}
+
+// Adds the queue's frame `i` to the system, and the window of frame i - 1, which is whole now. The
+// frame before that no later frame changes any more: it is eliminated.
+//
+// The window at a frame has the coefficients w on the frames around it: it adds w w^T / variance.
+void Trajectory::factor(int block, int i) noexcept {
+  const Frame& frame = frames_[place(block, i)];
+  const Block weight = frame.weight[0].cast<double>();
+  Block last = weight, right_last = weight * frame.target[0].cast<double>();
+  Ends& ends = ends_[block];
+  if (i < 2) {
+    ends = {ends.last, Block::Zero(), last, ends.right_last, right_last};
+    return;
+  }
+  const Frame& middle = frames_[place(block, i - 1)];
+  const Block first = 0.5 * middle.weight[1].cast<double>();
+  const Block second = middle.weight[2].cast<double>();
+  const Block sloped = first * middle.target[1].cast<double>();
+  const Block curved = second * middle.target[2].cast<double>();
+  const Block outer = 0.5 * first + second;
+  last += outer;
+  right_last += curved + sloped;
+  const Block oldest = ends.before + outer, to_middle = ends.between - 2.0 * second;
+  const Block to_last = second - 0.5 * first;
+  const Block inverse = oldest.inverse();
+  Eliminated& eliminated = eliminated_[place(block, i - 2)];
+  eliminated.start = (ends.right_before + curved - sloped) * inverse;
+  eliminated.next = to_middle * inverse;
+  eliminated.second = to_last * inverse;
+  ends = {ends.last + 4.0 * second - to_middle * eliminated.next,
+          -2.0 * second - to_middle * eliminated.second, last - to_last * eliminated.second,
+          ends.right_last - 2.0 * curved - to_middle * eliminated.start,
+          right_last - to_last * eliminated.start};
+}
+
+// The path's `count` frames that end `later` frames before the newest, into the first columns.
+void Trajectory::solve(int later, int count) noexcept {
+  const int first = filled_ - later - count;
+  for (int block = 0; block < blocks(); ++block) {
+    if (!carried()) {
+      forget(ends_[block]);
+      for (int i = 0; i < filled_; ++i) factor(block, i);
+    }
+    const Ends& ends = ends_[block];
+    const auto put = [&](int i, const Block& value) {
+      if (i >= first && i < first + count)
+        path_.block<lanes, 1>(block * lanes, i - first) = value.cast<float>();
+    };
+    const Block inverse = ends.before.inverse(), between = ends.between * inverse;
+    Block later_value =
+        (ends.right_last - between * ends.right_before) / (ends.last - between * ends.between);
+    put(filled_ - 1, later_value);
+    Block value = ends.right_before * inverse - between * later_value;
+    put(filled_ - 2, value);
+    for (int i = filled_ - 3; i >= first; --i) {
+      const Eliminated& eliminated = eliminated_[place(block, i)];
+      const Block earlier =
+          eliminated.start - eliminated.next * value - eliminated.second * later_value;
+      later_value = value, value = earlier;
+      put(i, value);
+    }
   }
 }
 
 void Trajectory::resize(int past, int future) {
   Trajectory other(values_, past, current_, future);
-  other.filled_ = std::min(filled_, other.length_);
+  const int kept = std::min(filled_, other.length_);
   other.fresh_ = fresh_;
-  other.newest_ = std::max(0, other.filled_ - 1);
-  for (int i = 0; i < other.filled_; ++i)
-    for (int part = 0; part < 3; ++part) {
-      const int from = column(filled_ - other.filled_ + i);
-      other.weight_[part].col(i) = weight_[part].col(from);
-      other.target_[part].col(i) = target_[part].col(from);
+  for (int i = 0; i < kept; ++i) {
+    other.newest_ = i, other.filled_ = i + 1;
+    for (int block = 0; block < blocks(); ++block) {
+      const int from = place(block, filled_ - kept + i), to = other.place(block, i);
+      other.frames_[to] = frames_[from];
+      other.eliminated_[to] = eliminated_[from];
+      if (other.carried() && !carried()) other.factor(block, i);
     }
+  }
+  if (other.carried() && carried()) other.ends_ = ends_;
   *this = std::move(other);
 }
 
@@ -48,68 +145,17 @@ bool Trajectory::ready() const noexcept {
   return fresh_ >= current_ && filled_ >= current_ + future_;
 }
 
-void Trajectory::solve() noexcept {
-  for (int i = 0; i < filled_; ++i) {
-    const int at = column(i);
-    diagonal_.col(i) = weight_[0].col(at);
-    right_.col(i) = weight_[0].col(at) * target_[0].col(at);
-    off_.col(i).setZero();
-    far_.col(i).setZero();
-  }
-  // The window at frame i has the coefficients w on frames i-1, i, i+1: it adds w w^T / variance.
-  for (int i = 1; i + 1 < filled_; ++i) {
-    const int at = column(i);
-    const auto first = weight_[1].col(at), second = weight_[2].col(at);
-    diagonal_.col(i - 1) += 0.25f * first + second;
-    diagonal_.col(i) += 4.0f * second;
-    diagonal_.col(i + 1) += 0.25f * first + second;
-    off_.col(i - 1) -= 2.0f * second;
-    off_.col(i) -= 2.0f * second;
-    far_.col(i - 1) += second - 0.25f * first;
-    right_.col(i - 1) += second * target_[2].col(at) - 0.5f * first * target_[1].col(at);
-    right_.col(i) -= 2.0f * second * target_[2].col(at);
-    right_.col(i + 1) += second * target_[2].col(at) + 0.5f * first * target_[1].col(at);
-  }
-  // L D L^T in place: off_ and far_ become L's columns, diagonal_ becomes 1/D, right_ L^-1 b.
-  for (int i = 0; i < filled_; ++i) {
-    diagonal_.col(i) = diagonal_.col(i).inverse();
-    if (i + 1 < filled_) {
-      right_.col(i + 1) -= off_.col(i) * diagonal_.col(i) * right_.col(i);
-      diagonal_.col(i + 1) -= off_.col(i).square() * diagonal_.col(i);
-      off_.col(i + 1) -= off_.col(i) * diagonal_.col(i) * far_.col(i);
-    }
-    if (i + 2 < filled_) {
-      right_.col(i + 2) -= far_.col(i) * diagonal_.col(i) * right_.col(i);
-      diagonal_.col(i + 2) -= far_.col(i).square() * diagonal_.col(i);
-    }
-  }
-}
-
-// Back substitution from the newest frame to frame `first` of the queue.
-void Trajectory::substitute(int first) noexcept {
-  const int last = filled_ - 1;
-  for (int i = last; i >= first; --i) {
-    path_.col(i) = (right_.col(i) * diagonal_.col(i)).matrix();
-    if (i + 1 <= last)
-      path_.col(i).array() -= off_.col(i) * diagonal_.col(i) * path_.col(i + 1).array();
-    if (i + 2 <= last)
-      path_.col(i).array() -= far_.col(i) * diagonal_.col(i) * path_.col(i + 2).array();
-  }
-}
-
 Eigen::Ref<const Eigen::MatrixXf> Trajectory::generate() noexcept {
   fresh_ = 0;
-  solve();
-  const int first = std::max(0, filled_ - current_ - future_);
-  substitute(first);
-  return path_.middleCols(first, std::min(current_, filled_));
+  const int count = std::min(current_, filled_);
+  solve(std::min(future_, filled_ - count), count);
+  return path_.topLeftCorner(values_, count);
 }
 
 Eigen::Ref<const Eigen::MatrixXf> Trajectory::flush(int count) noexcept {
   count = std::min(count, filled_);
-  solve();
-  substitute(filled_ - count);
-  return path_.middleCols(filled_ - count, count);
+  solve(0, count);
+  return path_.topLeftCorner(values_, count);
 }
 
 }  // namespace gait
