@@ -39,15 +39,10 @@ TEST(WalkerMemory, walkers_of_one_model_share_its_tables) {
   });
 }
 
-// Their queues of frames are their own, as long as they are set to.
 TEST(WalkerMemory, walkers_by_steps_share_all_but_their_queues) {
   const PlayModel styled(testing::corpus_walks().model);
-  const StepWalkerSettings shortest{.past = 0, .future = 0};
-  expect_small("step walker", [&] { return std::make_unique<StepWalker>(styled, shortest); });
-  expect_small("synthesiser", [&] {
-    return std::make_unique<Synthesiser>(
-        styled, SynthesiserSettings{.past = 0, .future = 0, .walks_alone = false});
-  });
+  expect_small("step walker", [&] { return std::make_unique<StepWalker>(styled); });
+  expect_small("synthesiser", [&] { return std::make_unique<Synthesiser>(styled); });
 }
 
 }  // namespace
