@@ -5,6 +5,7 @@
 #include "gait/corpus/walk_style.h"
 #include "gait/error.h"
 #include "gait/files/bvh.h"
+#include "gait/platform/path_text.h"
 #include "pd/files.h"
 #include "pd/voice_message.h"
 
@@ -236,7 +237,7 @@ void BvhVoice::write(const Arguments& arguments) {
   if (!motion || !model_) arguments.fail("there is no clip to write yet");
   background_.run(
       [motion, model = model_->model, to = path_to_write(around_.canvas, arguments.symbol(0))] {
-        write_bvh(bvh_from_clip(clip_of(*motion, *model->body)), to);
+        write_bvh(bvh_from_clip(clip_of(*motion, *model->body)), path_from_utf8(to));
         return to;
       },
       [this](const std::string& path) { to(around_.info, "written").add(path).send(); },

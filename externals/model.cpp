@@ -4,6 +4,7 @@
 
 #include "gait/corpus/demo_model.h"
 #include "gait/names.h"
+#include "gait/platform/path_text.h"
 #include "objects.h"
 #include "pd/model_owner.h"
 
@@ -55,7 +56,7 @@ class ModelBox final : public ModelOwner {
 
   void reload(const Arguments& arguments) {
     if (!file_.empty())
-      load([path = file_] { return load_model(path); });
+      load([path = file_] { return load_model(path_from_utf8(path)); });
     else if (model_name() == demo_model_name)
       load(load_demo_model);
     else
@@ -108,7 +109,7 @@ class ModelBox final : public ModelOwner {
   void read_file(const std::string& name) {
     const auto path = find_file(patch(), name);
     if (!path) return failed("read: " + no_file(name));
-    load([path] { return load_model(*path); });
+    load([path = *path] { return load_model(path_from_utf8(path)); });
     file_ = *path;
   }
 

@@ -4,6 +4,7 @@
 
 #include "gait/corpus/demo_model.h"
 #include "gait/error.h"
+#include "gait/platform/path_text.h"
 #include "objects.h"
 #include "pd/model_owner.h"
 #include "pd/ticker.h"
@@ -87,8 +88,8 @@ class Train final : public ModelOwner {
     if (!path) arguments.fail(no_file(name));
     if (learns_walks() && !body()) arguments.fail("waiting for gait-demo");
     background().run(
-        [path = *path, base = learns_walks() ? body_model() : nullptr] {
-          if (!path.ends_with(".bvh") && !path.ends_with(".BVH")) return read_takes(path);
+        [path = path_from_utf8(*path), base = learns_walks() ? body_model() : nullptr] {
+          if (path.extension() != ".bvh" && path.extension() != ".BVH") return read_takes(path);
           if (!base) throw Error("expected a file of takes: this box was made with -in");
           return std::vector{take_of_clip(path, *base->model)};
         },

@@ -3,6 +3,7 @@
 #include <filesystem>
 
 #include "gait/model/body_motion.h"
+#include "gait/platform/path_text.h"
 #include "pd/pose_values.h"
 
 namespace gait::pd {
@@ -10,7 +11,7 @@ namespace gait::pd {
 namespace {
 
 std::string label_of(const std::filesystem::path& file) {
-  std::string name = file.stem().string();
+  std::string name = utf8_of(file.stem());
   if (name.starts_with("walk_")) name.erase(0, 5);
   const std::size_t last = name.rfind('_');
   if (last != std::string::npos && last > 0 &&
@@ -21,7 +22,7 @@ std::string label_of(const std::filesystem::path& file) {
 
 }  // namespace
 
-RecordedTake take_of_clip(const std::string& path, const Model& model) {
+RecordedTake take_of_clip(const std::filesystem::path& path, const Model& model) {
   const BodyMotion motion = read_motion(path, model);
   PoseValues values(*model.body);
   RecordedTake take{label_of(path), 3 * motion.joints, 0, {}, {}};

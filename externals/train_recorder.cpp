@@ -1,90 +1,69 @@
 #include "train_recorder.h"
 
-#include <fcntl.h>
 #include <m_pd.h>
-#include <sys/file.h>
-#include <unistd.h>
 
-#include <cstdlib>
-#include <filesystem>
-#include <fstream>
+#include <sstream>
+#include <system_error>
 #include <utility>
 
-#include "gait/error.h"
+#include "gait/platform/host_process.h"
+#include "gait/platform/locked_file.h"
+#include "gait/platform/path_text.h"
 #include "pd/worker.h"
 
 namespace gait::pd {
 
 namespace fs = std::filesystem;
 
-std::string journal_path(const std::string& name) {
-  fs::path folder;
-  if (const char* state = std::getenv("XDG_STATE_HOME"); state != nullptr && *state != '\0')
-    folder = state;
-  else if (const char* home = std::getenv("HOME"); home != nullptr && *home != '\0')
-    folder = fs::path(home) / ".local" / "state";
-  else
-    folder = fs::temp_directory_path();
+fs::path journal_path(const std::string& name) {
   std::string file;
   for (const char c : name) file += c == '/' || c == '\\' ? '_' : c;
-  return (folder / "gait" / (file + ".takes")).string();
+  return state_folder() / "gait" / path_from_utf8(file + ".takes");
 }
 
-// Locked for as long as it is open.
 struct TakeRecorder::Journal {
-  std::string path;
-  int file = -1;
-  bool begun = false;
+  std::unique_ptr<LockedFile> file;
+  std::string missing{};  // why there is no file
 
-  explicit Journal(std::string at) : path(std::move(at)) {
-    file = open(path.c_str(), O_RDWR | O_CREAT | O_CLOEXEC, 0600);
-    if (file >= 0 && flock(file, LOCK_EX | LOCK_NB) != 0) {
-      close(file);
-      file = -1;
-    }
-  }
   ~Journal() {
-    if (file < 0) return;
-    std::error_code failure;
-    if (!begun) fs::remove(path, failure);
-    close(file);
+    if (file && file->size() == 0) file->remove();
   }
-  Journal(const Journal&) = delete;
-  Journal& operator=(const Journal&) = delete;
 };
 
-TakeRecorder::TakeRecorder(const std::string& journal, bool blocking) : blocking_(blocking) {
+TakeRecorder::TakeRecorder(const fs::path& journal, bool blocking)
+    : journal_(std::make_shared<Journal>()), blocking_(blocking) {
   std::error_code failure;
-  fs::create_directories(fs::path(journal).parent_path(), failure);
-  if (failure || open_journal(journal)) return;
-  for (int number = 2; number < 100; ++number) {
-    const fs::path path(journal);
-    const std::string name =
-        path.stem().string() + "-" + std::to_string(number) + path.extension().string();
-    if (open_journal((path.parent_path() / name).string())) return;
+  fs::create_directories(journal.parent_path(), failure);
+  fs::path path = journal;
+  for (int number = 2; !failure && number < 100; ++number) {
+    failure = open_journal(path);
+    if (!failure) return;
+    if (failure != std::errc::device_or_resource_busy) break;
+    failure.clear();
+    path = journal.parent_path() / journal.stem();
+    path += "-" + std::to_string(number);
+    path += journal.extension();
   }
+  journal_->missing = utf8_of(path) + ": " + (failure ? failure.message() : "taken");
 }
 
 TakeRecorder::~TakeRecorder() = default;
 
-bool TakeRecorder::open_journal(const std::string& path) {
-  auto journal = std::make_shared<Journal>(path);
-  if (journal->file < 0) return false;
+std::error_code TakeRecorder::open_journal(const fs::path& path) {
   std::error_code failure;
-  if (fs::file_size(path, failure) > 0 && !failure) {
+  auto file = LockedFile::open(path, failure);
+  if (file && file->size() > 0) {
     // The first free number: nothing is ever written over.
-    std::string aside;
+    fs::path aside;
     for (int number = 1; aside.empty() || fs::exists(aside, failure); ++number)
-      aside = path + "." + std::to_string(number);
-    fs::rename(path, aside, failure);
-    if (failure) return false;
-    journal->begun = true;  // the file that is locked has another name now, and stays
-    left_behind_ = aside;
-    journal = std::make_shared<Journal>(path);
-    if (journal->file < 0) return false;
+      (aside = path) += "." + std::to_string(number);
+    failure = file->rename(aside);
+    if (failure) return failure;
+    left_behind_ = utf8_of(aside);
+    file = LockedFile::open(path, failure);
   }
-  journal_ = std::move(journal);
-  return true;
+  if (file) journal_->file = std::move(file);
+  return failure;
 }
 
 void TakeRecorder::start(const std::string& label, int inputs, int outputs) {
@@ -153,21 +132,23 @@ void TakeRecorder::change(Takes next) {
 }
 
 void TakeRecorder::write(const std::shared_ptr<const RecordedTake>& take) {
-  const auto failed = std::make_shared<bool>(false);
+  const auto failed = std::make_shared<std::string>();
   Worker::get().run(
       [take, failed, journal = journal_] {
-        *failed = true;
-        if (!journal) return;
-        std::ofstream file(journal->path, std::ios::app);
-        if (!std::exchange(journal->begun, true)) write_takes_header(file);
-        write_take(*take, file);
-        file.flush();
-        *failed = !file;
+        if (!journal->file) {
+          *failed = journal->missing;
+          return;
+        }
+        std::ostringstream text;
+        if (journal->file->size() == 0) write_takes_header(text);
+        write_take(*take, text);
+        if (const std::error_code failure = journal->file->append(text.str()))
+          *failed = utf8_of(journal->file->path()) + ": " + failure.message();
       },
-      [failed, journal = journal_] {
-        if (*failed)
+      [failed] {
+        if (!failed->empty())
           pd_error(nullptr, "gait.train: a take could not be written to %s; it is kept in memory",
-                   journal ? journal->path.c_str() : "a journal");
+                   failed->c_str());
       },
       blocking_);
 }

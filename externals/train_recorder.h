@@ -1,9 +1,11 @@
 // Takes that [gait.train] records: in memory, and on disk as soon as each has ended.
 #pragma once
 
+#include <filesystem>
 #include <memory>
 #include <span>
 #include <string>
+#include <system_error>
 #include <vector>
 
 #include "gait/teach/takes_file.h"
@@ -19,7 +21,7 @@ class TakeRecorder {
   // `journal`: file that takes are written to as they end. What an earlier session left there is
   // moved aside first; while another box or another Pd writes there, this one's is numbered
   // (NAME-2.takes). `blocking`: write at once instead of on the worker.
-  TakeRecorder(const std::string& journal, bool blocking);
+  TakeRecorder(const std::filesystem::path& journal, bool blocking);
   ~TakeRecorder();
   TakeRecorder(const TakeRecorder&) = delete;
   TakeRecorder& operator=(const TakeRecorder&) = delete;
@@ -44,12 +46,13 @@ class TakeRecorder {
   void change(Takes next);
   void write(const std::shared_ptr<const RecordedTake>& take);
 
-  // Opens and locks the file; false when another box or program has locked it.
-  bool open_journal(const std::string& path);
+  // Opens and locks the file. Returns why it cannot: busy when another box or program has locked
+  // it.
+  std::error_code open_journal(const std::filesystem::path& path);
 
   std::string left_behind_;
   struct Journal;
-  std::shared_ptr<Journal> journal_;  // the worker may still write; null: it cannot be written
+  std::shared_ptr<Journal> journal_;  // the worker may still write
   bool blocking_;
   std::unique_ptr<RecordedTake> recording_;
   double begin_ = 0;
@@ -59,6 +62,6 @@ class TakeRecorder {
 
 // Where takes of this name are written: $XDG_STATE_HOME/gait/NAME.takes, else under
 // ~/.local/state.
-std::string journal_path(const std::string& name);
+std::filesystem::path journal_path(const std::string& name);
 
 }  // namespace gait::pd

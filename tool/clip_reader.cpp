@@ -5,6 +5,7 @@
 
 #include "gait/error.h"
 #include "gait/names.h"
+#include "gait/platform/path_text.h"
 #include "option_kinds.h"
 
 namespace gait::tool {
@@ -51,7 +52,8 @@ void add_clip_reading(CLI::App& app, ClipReading& reading) {
 
 ReadClip read_clip(const std::filesystem::path& path, const ClipReading& reading,
                    const std::string& command) {
-  const RoleTable table = reading.roles.empty() ? RoleTable{} : read_role_table(reading.roles);
+  const RoleTable table =
+      reading.roles.empty() ? RoleTable{} : read_role_table(path_from_utf8(reading.roles));
 
   ReadClip read;
   read.file = read_bvh(path);

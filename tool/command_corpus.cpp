@@ -8,6 +8,7 @@
 
 #include "commands.h"
 #include "gait/corpus/corpus.h"
+#include "gait/platform/path_text.h"
 #include "json_report.h"
 #include "option_kinds.h"
 #include "progress.h"
@@ -33,7 +34,8 @@ void corpus(const CorpusOptions& options) {
     for (CorpusWalk& walk : make_speed_walks(options.seed)) walks.push_back(std::move(walk));
   {
     Progress progress("gait corpus: writing walks");
-    write_corpus(options.folder, walks, 1, [&](double share) { progress.show(share); });
+    write_corpus(path_from_utf8(options.folder), walks, 1,
+                 [&](double share) { progress.show(share); });
   }
   std::map<std::string, StyleCount> styles;
   std::vector<std::string> order;

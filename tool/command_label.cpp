@@ -9,6 +9,7 @@
 #include "gait/error.h"
 #include "gait/files/label_file.h"
 #include "gait/motion/contacts.h"
+#include "gait/platform/path_text.h"
 #include "json_report.h"
 #include "option_kinds.h"
 
@@ -32,7 +33,7 @@ struct LabelledClip {
 };
 
 LabelledClip label_clip(const std::string& path, const ClipReading& reading) {
-  const ReadClip read = read_clip(path, reading, "label");
+  const ReadClip read = read_clip(path_from_utf8(path), reading, "label");
   warn_of_roles("label", reading, read.roles_without_joint);
   LabelledClip labelled{path, read.clip.frames(), read.clip.frame_rate, {}, {}};
   labelled.track = follow_walk(read.clip, read.roles);
@@ -91,16 +92,15 @@ LabelForm form_of(const std::filesystem::path& path) {
 
 void write(const LabelledClip& clip, const std::filesystem::path& output) {
   if (clip.steps.empty()) return;
-  const std::filesystem::path path =
-      std::filesystem::is_directory(output)
-          ? output / std::filesystem::path(clip.path).stem().concat(".txt")
-          : output;
+  const std::filesystem::path path = std::filesystem::is_directory(output)
+                                         ? output / path_from_utf8(clip.path).stem().concat(".txt")
+                                         : output;
   write_labels(labels_from_contacts(clip.track.contacts, clip.frame_rate), form_of(path), path);
 }
 
 void label(const LabelOptions& options) {
-  if (!options.output.empty() && options.clips.size() > 1 &&
-      !std::filesystem::is_directory(options.output))
+  const std::filesystem::path output = path_from_utf8(options.output);
+  if (!output.empty() && options.clips.size() > 1 && !std::filesystem::is_directory(output))
     throw UsageError("-o " + options.output +
                      ": with several clips, expected a folder that exists");
 
@@ -109,7 +109,7 @@ void label(const LabelOptions& options) {
   for (const std::string& path : options.clips) {
     const LabelledClip clip = label_clip(path, options.reading);
     found = found || !clip.steps.empty();
-    if (!options.output.empty()) write(clip, options.output);
+    if (!output.empty()) write(clip, output);
     if (options.json)
       report.push_back(as_json(clip));
     else

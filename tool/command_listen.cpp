@@ -8,9 +8,10 @@
 #include "commands.h"
 #include "gait/error.h"
 #include "gait/files/bvh.h"
-#include "gait/files/whole_file.h"
 #include "gait/osc/receiver.h"
 #include "gait/osc/recording.h"
+#include "gait/platform/path_text.h"
+#include "gait/platform/whole_file.h"
 #include "interrupt.h"
 #include "option_kinds.h"
 
@@ -41,7 +42,7 @@ class Recorder final : public osc::FrameSink {
 
 void listen(const ListenOptions& options) {
   const Interrupt interrupt;
-  WholeFile output(options.output);
+  WholeFile output(path_from_utf8(options.output));
   osc::Receiver receiver(
       {.port = options.port,
        .any = options.any,

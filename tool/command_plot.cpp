@@ -28,10 +28,11 @@ Chart figure_of(const PlotOptions& options) {
 }
 
 void plot(const PlotOptions& options) {
-  const std::string ending = ending_of(options.output);
+  const std::filesystem::path output = path_from_utf8(options.output);
+  const std::string ending = ending_of(output);
   if (ending != ".png" && ending != ".svg")
     throw UsageError("-o " + options.output + ": expected a name that ends in .svg or .png");
-  write_chart(figure_of(options), options.output);
+  write_chart(figure_of(options), output);
 }
 
 void add_options(CLI::App& app, PlotOptions& options) {

@@ -8,8 +8,9 @@
 #include "commands.h"
 #include "decision_table.h"
 #include "gait/corpus/demo_model.h"
-#include "gait/files/whole_file.h"
 #include "gait/offline/reconstructed_file.h"
+#include "gait/platform/path_text.h"
+#include "gait/platform/whole_file.h"
 #include "option_kinds.h"
 #include "play_options.h"
 
@@ -26,12 +27,12 @@ struct ReconstructOptions {
 };
 
 void reconstruct(const ReconstructOptions& options) {
-  WholeFile output(options.output);
+  WholeFile output(path_from_utf8(options.output));
   std::optional<WholeFile> table;
-  if (!options.table.empty()) table.emplace(options.table);
+  if (!options.table.empty()) table.emplace(path_from_utf8(options.table));
 
   const auto model = std::make_shared<const Model>(model_named(options.model));
-  const BvhFile file = read_bvh(options.clip);
+  const BvhFile file = read_bvh(path_from_utf8(options.clip));
   print_warnings("reconstruct", file.warnings);
   const ReconstructedFile result =
       reconstruct_file(model, file, said_of_frame(options.reading), options.settings,

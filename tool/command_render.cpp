@@ -15,6 +15,7 @@
 #include "gait/corpus/demo_model.h"
 #include "gait/error.h"
 #include "gait/numbers.h"
+#include "gait/platform/path_text.h"
 #include "option_kinds.h"
 #include "progress.h"
 #include "speed_words.h"
@@ -48,11 +49,11 @@ std::string view_fault(const std::string& view) {
 }
 
 WalkView view_clip(const std::string& path, const RenderOptions& options) {
-  const ReadClip read = read_clip(path, options.reading, "render");
+  const ReadClip read = read_clip(path_from_utf8(path), options.reading, "render");
   warn_of_roles("render", options.reading, read.roles_without_joint);
   if (read.clip.frames() == 0) throw Error(path + ": has no frames, nothing to draw");
   WalkView view = view_walk(read.clip, read.roles, camera_degrees(options.view));
-  view.name = std::filesystem::path(path).stem().string();
+  view.name = utf8_of(path_from_utf8(path).stem());
   return view;
 }
 
@@ -67,11 +68,11 @@ void render_speeds(const RenderOptions& options, const std::string& ending) {
   if (!options.legs.empty()) grid.leg_lengths = parse_lengths(options.legs, "--legs");
   grid.camera_degrees = camera_degrees(options.view);
   const auto model = std::make_shared<const Model>(model_named(options.clips.front()));
-  write_speed_grid(model, grid, options.output);
+  write_speed_grid(model, grid, path_from_utf8(options.output));
 }
 
 void render(const RenderOptions& options) {
-  const std::string ending = ending_of(options.output);
+  const std::string ending = ending_of(path_from_utf8(options.output));
   if (ending != ".png" && ending != ".svg" && ending != ".mp4")
     throw UsageError("-o " + options.output + ": expected a name that ends in .png, .svg or .mp4");
   if (!options.compare.empty() && options.clips.size() != 1)
@@ -91,9 +92,10 @@ void render(const RenderOptions& options) {
 
   if (ending == ".mp4") {
     Progress progress("gait render: drawing the film");
-    write_film(views, compared.get(), options.output, [&](double share) { progress.show(share); });
+    write_film(views, compared.get(), path_from_utf8(options.output),
+               [&](double share) { progress.show(share); });
   } else {
-    write_film_strip(views, compared.get(), options.strobe, options.output);
+    write_film_strip(views, compared.get(), options.strobe, path_from_utf8(options.output));
   }
 }
 

@@ -13,6 +13,7 @@
 #include "gait/osc/destination.h"
 #include "gait/osc/humanoid_sender.h"
 #include "gait/osc/rig_sender.h"
+#include "gait/platform/path_text.h"
 #include "interrupt.h"
 #include "option_kinds.h"
 
@@ -98,7 +99,7 @@ class FrameTeller {
 void stream(const StreamOptions& options) {
   const Interrupt interrupt;
   const osc::Destination to = parse_destination(options.to);
-  const ReadClip read = read_clip(options.input, options.reading, "stream");
+  const ReadClip read = read_clip(path_from_utf8(options.input), options.reading, "stream");
   if (read.clip.frames() == 0) throw Error(options.input + ": expected frames, found none");
   const Clip clip = options.rate ? resampled(read.clip, *options.rate) : read.clip;
   FrameTeller teller(clip, read.roles, *osc::form_named(options.form));

@@ -12,10 +12,11 @@
 
 #include "commands.h"
 #include "gait/error.h"
-#include "gait/files/whole_file.h"
 #include "gait/learn/parallel.h"
 #include "gait/model/model_file.h"
 #include "gait/motion/rest_calibration.h"
+#include "gait/platform/path_text.h"
+#include "gait/platform/whole_file.h"
 #include "gait/teach/walk_model.h"
 #include "interrupt.h"
 #include "option_kinds.h"
@@ -101,7 +102,7 @@ LearntWalks learn_from(const WalksRead& read, const TrainOptions& options,
     progress.show(0.3 + 0.7 * share, what);
   };
   ModelOrigin origin;
-  origin.name = std::filesystem::path(options.output).stem().string();
+  origin.name = utf8_of(path_from_utf8(options.output).stem());
   origin.date = date_of_training();
   origin.comment = options.comment;
   origin.synthetic = options.synthetic;
@@ -109,13 +110,13 @@ LearntWalks learn_from(const WalksRead& read, const TrainOptions& options,
       learn_walks(read.walks, read.walks, walk_options_of(options, read.roles), selection, origin);
   // A model keeps the names of its clips, not the folders that they lay in on this machine.
   for (std::string& clip : learnt.selected.model.training.clips)
-    clip = std::filesystem::path(clip).filename().string();
+    clip = utf8_of(path_from_utf8(clip).filename());
   return learnt;
 }
 
 void train(const TrainOptions& options) {
   const auto start = std::chrono::steady_clock::now();
-  WholeFile output(options.output);
+  WholeFile output(path_from_utf8(options.output));
   const Interrupt interrupt;
   WalksRead read;
   LearntWalks learnt;

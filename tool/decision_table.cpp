@@ -1,9 +1,9 @@
 #include "decision_table.h"
 
 #include <cstdio>
-#include <fstream>
+#include <sstream>
 
-#include "gait/error.h"
+#include "gait/platform/whole_file.h"
 
 namespace gait::tool {
 
@@ -24,7 +24,7 @@ std::string csv_field(const std::string& text) {
 
 void write_decisions(const ReconstructedClip& walk, const Model& model,
                      const std::filesystem::path& path) {
-  std::ofstream file(path, std::ios::binary);
+  std::ostringstream file;
   file << "time,step,state,log_likelihood,phase,cadence";
   for (const std::string& style : model.styles) file << ',' << csv_field("style " + style);
   file << '\n';
@@ -45,8 +45,7 @@ void write_decisions(const ReconstructedClip& walk, const Model& model,
     }
     file << '\n';
   }
-  file.close();
-  if (!file) throw Error(path.string() + ": cannot be written");
+  write_whole_file(path, file.str());
 }
 
 }  // namespace gait::tool

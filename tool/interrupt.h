@@ -1,32 +1,25 @@
 // Ctrl-C during long work: asks it to stop in good order. A second one ends the program at once.
 #pragma once
 
-#include <atomic>
-#include <csignal>
-
 #include "gait/cancel.h"
-#include "gait/joining_thread.h"
+#include "gait/error.h"
+#include "gait/platform/stop_signals.h"
 
 namespace gait::tool {
 
-// While it lives, SIGINT and SIGTERM request a stop. Make it before any thread is started.
+// While it lives, Ctrl-C requests a stop. Make it before any thread is started.
 class Interrupt {
  public:
-  Interrupt();
-  ~Interrupt();
-  Interrupt(const Interrupt&) = delete;
-  Interrupt& operator=(const Interrupt&) = delete;
-
   const Cancel& cancel() const { return cancel_; }
   bool requested() const { return cancel_.requested(); }
   // Throws Error("cancelled") when a stop was requested.
-  void check() const;
+  void check() const {
+    if (requested()) throw Error("cancelled");
+  }
 
  private:
-  sigset_t waited_for_{}, before_{};
   Cancel cancel_;
-  std::atomic<bool> enough_{false};  // the signals are waited for no longer
-  JoiningThread waiter_;
+  StopSignals signals_{[this] { cancel_.request(); }};
 };
 
 }  // namespace gait::tool

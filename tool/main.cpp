@@ -11,6 +11,7 @@
 #include "commands.h"
 #include "gait/error.h"
 #include "gait/names.h"
+#include "gait/platform/terminal.h"
 
 namespace {
 
@@ -29,11 +30,11 @@ std::string names_of(const std::vector<Command>& commands) {
                             [](const Command& command) { return command.app->get_name(); });
 }
 
-int refuse(const CLI::App& program, const std::vector<Command>& commands, int argc, char** argv,
-           const CLI::ParseError& error) {
+int refuse(const CLI::App& program, const std::vector<Command>& commands,
+           const std::vector<std::string>& arguments, const CLI::ParseError& error) {
   const auto chosen = program.get_subcommands();
   if (chosen.empty()) {
-    const std::string first = argc > 1 ? argv[1] : "";
+    const std::string first = arguments.empty() ? "" : arguments.front();
     if (first.empty())
       print_error("gait", "no subcommand given (" + names_of(commands) + "); see gait --help");
     else
@@ -74,6 +75,7 @@ int run(const Command& command) {
 }  // namespace
 
 int main(int argc, char** argv) try {
+  const std::vector<std::string> arguments = gait::utf8_arguments(argc, argv);
   CLI::App program{
       "Recognise, reconstruct, synthesise and draw human walking: what is done before the show.",
       "gait"};
@@ -99,11 +101,12 @@ int main(int argc, char** argv) try {
       "Exit codes: 0 done, 1 the work failed, 2 used wrongly.");
 
   try {
-    program.parse(argc, argv);
+    // CLI11 takes them from the end.
+    program.parse(std::vector<std::string>(arguments.rbegin(), arguments.rend()));
   } catch (const CLI::Success& wanted) {  // --help, --version
     return program.exit(wanted);
   } catch (const CLI::ParseError& error) {
-    return refuse(program, commands, argc, argv, error);
+    return refuse(program, commands, arguments, error);
   }
   for (const Command& command : commands)
     if (command.app->parsed()) return run(command);

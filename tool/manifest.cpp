@@ -2,12 +2,12 @@
 
 #include <algorithm>
 #include <cmath>
-#include <fstream>
-#include <iterator>
 #include <set>
 
 #include "gait/error.h"
 #include "gait/numbers.h"
+#include "gait/platform/path_text.h"
+#include "gait/platform/whole_file.h"
 
 namespace gait::tool {
 
@@ -84,11 +84,8 @@ double speed_of(const std::string& text, const CsvReader& reader) {
 }  // namespace
 
 Manifest read_manifest(const std::filesystem::path& path) {
-  std::ifstream file(path, std::ios::binary);
-  if (!file) throw Error(path.string() + ": cannot be read");
-  const std::string text{std::istreambuf_iterator<char>(file), {}};
-  if (file.bad()) throw Error(path.string() + ": cannot be read");
-  CsvReader reader(text, path.string());
+  const std::string text = read_whole_file(path, "a manifest");
+  CsvReader reader(text, utf8_of(path));
   Manifest manifest;
   std::vector<std::string> columns, row;
   if (!reader.next(columns))
@@ -97,7 +94,7 @@ Manifest read_manifest(const std::filesystem::path& path) {
     reader.fail("expected a line that names the columns, one of them `file`");
   for (const std::string& column : columns)
     if (column != "file" && column != "style" && column != "subject" && column != "speed")
-      manifest.warnings.push_back(path.string() + ": column '" + column +
+      manifest.warnings.push_back(utf8_of(path) + ": column '" + column +
                                   "' is not used; known are file, style, subject and speed");
 
   std::set<std::filesystem::path> seen;
@@ -109,14 +106,14 @@ Manifest read_manifest(const std::filesystem::path& path) {
     entry.line = reader.line();
     for (std::size_t i = 0; i < row.size(); ++i) {
       if (row[i].empty()) continue;
-      if (columns[i] == "file") entry.file = path.parent_path() / row[i];
+      if (columns[i] == "file") entry.file = path.parent_path() / path_from_utf8(row[i]);
       if (columns[i] == "style") entry.fields.style = row[i];
       if (columns[i] == "subject") entry.fields.subject = row[i];
       if (columns[i] == "speed") entry.fields.speed = speed_of(row[i], reader);
     }
     if (entry.file.empty()) reader.fail("expected the name of a file");
     if (!seen.insert(entry.file.lexically_normal()).second)
-      reader.fail("'" + entry.file.string() + "' is there twice");
+      reader.fail("'" + utf8_of(entry.file) + "' is there twice");
     manifest.entries.push_back(std::move(entry));
   }
   return manifest;

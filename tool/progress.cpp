@@ -1,14 +1,14 @@
 #include "progress.h"
 
-#include <unistd.h>
-
 #include <algorithm>
 #include <cmath>
 #include <utility>
 
+#include "gait/platform/terminal.h"
+
 namespace gait::tool {
 
-Progress::Progress(std::string what) : what_(std::move(what)), watched_(isatty(STDERR_FILENO)) {}
+Progress::Progress(std::string what) : what_(std::move(what)), watched_(rewrites_lines(stderr)) {}
 
 Progress::~Progress() {
   if (!last_.empty()) std::fputs("\r\033[K", stderr);

@@ -5,6 +5,7 @@
 #include <numbers>
 
 #include "gait/names.h"
+#include "gait/platform/path_text.h"
 #include "json_report.h"
 
 namespace gait::tool {
@@ -54,7 +55,7 @@ void print_clips(const TrainReport& report) {
     const WalkFile& file = report.read.files[i];
     std::string remark = joined(use.treadmill ? "treadmill" : "", joined(use.remark, file.remark));
     if (!use.used) remark = joined("NOT USED: " + use.why_not, remark);
-    std::printf("  %-34s %-14s %5d %8.2f %6.2f  %s\n", file.path.filename().string().c_str(),
+    std::printf("  %-34s %-14s %5d %8.2f %6.2f  %s\n", utf8_of(file.path.filename()).c_str(),
                 use.style.empty() ? "-" : use.style.c_str(), use.steps, use.seconds, use.speed,
                 remark.c_str());
   }
@@ -116,7 +117,7 @@ void print_json(const TrainReport& report) {
     const WalkUse& use = report.walks.uses[i];
     const Walk& walk = report.read.walks[i];
     const WalkFile& file = report.read.files[i];
-    clips.push_back({{"file", file.path.string()},
+    clips.push_back({{"file", utf8_of(file.path)},
                      {"style", use.style},
                      {"subject", walk.subject},
                      {"used", use.used},

@@ -13,6 +13,7 @@
 #include "gait/error.h"
 #include "gait/files/label_file.h"
 #include "gait/names.h"
+#include "gait/platform/path_text.h"
 #include "manifest.h"
 #include "name_pattern.h"
 #include "option_kinds.h"
@@ -41,9 +42,9 @@ std::vector<fs::path> bvh_files_in(const fs::path& folder) {
       if (ending_of(entry.path()) == ".bvh" && entry.is_regular_file())
         files.push_back(entry.path());
   } catch (const fs::filesystem_error& error) {
-    throw Error(folder.string() + ": cannot be searched: " + error.code().message());
+    throw Error(utf8_of(folder) + ": cannot be searched: " + error.code().message());
   }
-  if (files.empty()) throw Error(folder.string() + ": has no BVH files");
+  if (files.empty()) throw Error(utf8_of(folder) + ": has no BVH files");
   std::sort(files.begin(), files.end());
   return files;
 }
@@ -63,13 +64,13 @@ class Said {
         pattern_(pattern_given_ ? reading.pattern : usual_pattern) {
     if (reading.manifest.empty()) return;
     manifest_name_ = reading.manifest;
-    manifest_ = read_manifest(reading.manifest);
+    manifest_ = read_manifest(path_from_utf8(reading.manifest));
     for (const std::string& warning : manifest_.warnings)
       std::fprintf(stderr, "gait %s: warning: %s\n", command.c_str(), warning.c_str());
     for (const ManifestEntry& entry : manifest_.entries) {
       if (!fs::exists(entry.file))
         throw Error(manifest_name_ + ":" + std::to_string(entry.line) + ": there is no file " +
-                    entry.file.string());
+                    utf8_of(entry.file));
       by_file_[identity(entry.file)] = &entry;
     }
   }
@@ -78,7 +79,7 @@ class Said {
 
   NameFields of(const fs::path& path, std::string& remark) const {
     const auto add = [&](const std::string& text) { append_name(remark, text); };
-    const auto named = pattern_.read(path.filename().string());
+    const auto named = pattern_.read(utf8_of(path.filename()));
     if (!named && pattern_given_) add("its name does not fit --label");
     NameFields fields = named.value_or(NameFields{});
     if (manifest_name_.empty()) return fields;
@@ -104,9 +105,10 @@ class Said {
 
 std::vector<fs::path> files_meant(const WalkReading& reading, const Manifest& manifest) {
   std::vector<fs::path> named;
-  for (const std::string& path : reading.paths) {
+  for (const std::string& name : reading.paths) {
+    const fs::path path = path_from_utf8(name);
     if (!fs::is_directory(path)) {
-      named.emplace_back(path);
+      named.push_back(path);
       continue;
     }
     const auto found = bvh_files_in(path);
@@ -129,10 +131,10 @@ std::vector<Contact> contacts_beside(const fs::path& path, const Clip& clip, std
       contacts = contacts_from_labels(read_labels(labels).segments, clip.frame_rate);
     } catch (const Error& error) {
       const std::string text = error.what();
-      throw Error((text.starts_with(labels.string()) ? "" : labels.string() + ": ") + text +
-                  " (labels of " + path.filename().string() + "; --no-labels leaves them out)");
+      throw Error((text.starts_with(utf8_of(labels)) ? "" : utf8_of(labels) + ": ") + text +
+                  " (labels of " + utf8_of(path.filename()) + "; --no-labels leaves them out)");
     }
-    const std::string name = labels.filename().string();
+    const std::string name = utf8_of(labels.filename());
     if (contacts.empty()) {
       append_name(remark, name + " has no steps, contacts are found");
       return contacts;
@@ -144,7 +146,7 @@ std::vector<Contact> contacts_beside(const fs::path& path, const Clip& clip, std
       std::snprintf(text, sizeof text,
                     ": expected steps within the clip's %.3f s, found one at %.3f s",
                     clip.frames() / clip.frame_rate, contacts.back().frame / clip.frame_rate);
-      throw Error(labels.string() + text + " (labels of " + path.filename().string() +
+      throw Error(utf8_of(labels) + text + " (labels of " + utf8_of(path.filename()) +
                   "; --no-labels leaves them out)");
     }
     append_name(remark, "contacts from " + name);
@@ -174,7 +176,7 @@ WalksRead read_walks(const WalkReading& reading, const std::string& command,
   if (reading.paths.empty() && reading.manifest.empty())
     throw UsageError("no clips given: expected BVH files or folders, or a --manifest");
   WalksRead read;
-  if (!reading.clip.roles.empty()) read.roles = read_role_table(reading.clip.roles);
+  if (!reading.clip.roles.empty()) read.roles = read_role_table(path_from_utf8(reading.clip.roles));
   const Said said(reading, command);
   const std::vector<fs::path> files = files_meant(reading, said.manifest());
   if (files.empty()) throw Error(reading.manifest + ": names no clips");
@@ -182,7 +184,7 @@ WalksRead read_walks(const WalkReading& reading, const std::string& command,
   for (const auto& entry : read.roles) without_joint.push_back(entry.first);
   for (std::size_t i = 0; i < files.size(); ++i) {
     const fs::path& path = files[i];
-    progress(static_cast<double>(i) / static_cast<double>(files.size()), path.filename().string());
+    progress(static_cast<double>(i) / static_cast<double>(files.size()), utf8_of(path.filename()));
     WalkFile file{path, ""};
     Walk walk;
     ReadClip in_file = read_clip(path, reading.clip, command);

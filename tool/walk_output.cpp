@@ -3,7 +3,8 @@
 #include <numbers>
 
 #include "gait/files/bvh.h"
-#include "gait/files/whole_file.h"
+#include "gait/platform/path_text.h"
+#include "gait/platform/whole_file.h"
 #include "option_kinds.h"
 
 namespace gait::tool {
@@ -22,7 +23,7 @@ void add_walk_output(CLI::App& app, WalkOutput& output) {
 CLI::Validator walk_seconds() { return within(0.1, 7200); }
 
 void write_walk(const WalkOutput& output, const std::function<Clip()>& walk) {
-  WholeFile file(output.path);
+  WholeFile file(path_from_utf8(output.path));
   write_bvh(bvh_from_clip(walk()), file.part());
   file.keep();
 }

@@ -5,6 +5,7 @@
 #include <string>
 
 #include "gait/model/model_file.h"
+#include "gait/platform/path_text.h"
 #include "pd/background.h"
 #include "pd/files.h"
 #include "pd/models.h"
@@ -27,7 +28,7 @@ class ModelOwner : public ModelUser {
   void write_file(const std::string& name, std::shared_ptr<const Model> what) {
     background_.run(
         [to = path_to_write(patch_, name), what = std::move(what)] {
-          write_model(*what, to);
+          write_model(*what, path_from_utf8(to));
           return to;
         },
         [this](const std::string& to) { info_.add(to).send("written"); },

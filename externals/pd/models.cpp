@@ -1,7 +1,5 @@
 #include "pd/models.h"
 
-#include <dlfcn.h>
-
 #include <algorithm>
 #include <filesystem>
 #include <map>
@@ -10,6 +8,8 @@
 #include "gait/corpus/demo_model.h"
 #include "gait/error.h"
 #include "gait/model/model_file.h"
+#include "gait/platform/host_process.h"
+#include "gait/platform/path_text.h"
 #include "pd/worker.h"
 
 namespace gait::pd {
@@ -18,24 +18,23 @@ namespace {
 
 // The folder of this library's own file, through whatever link it was loaded.
 std::filesystem::path library_folder() {
-  Dl_info found{};
   static const char here = 0;
-  if (dladdr(&here, &found) == 0 || found.dli_fname == nullptr) return {};
-  std::error_code failure;
-  const auto path = std::filesystem::canonical(found.dli_fname, failure);
-  return failure ? std::filesystem::path() : path.parent_path();
+  return file_of_code(&here).parent_path();
 }
 
 }  // namespace
 
-SharedModel load_model(const std::string& path) { return make_play_model(read_model(path)); }
+SharedModel load_model(const std::filesystem::path& path) {
+  return make_play_model(read_model(path));
+}
 
 SharedModel load_demo_model() {
-  const std::filesystem::path file = library_folder() / (std::string(demo_model_name) + ".gait");
+  const std::filesystem::path file =
+      library_folder() / path_from_utf8(std::string(demo_model_name) + ".gait");
   std::error_code failure;
   if (std::filesystem::exists(file, failure)) {
     try {
-      return load_model(file.string());
+      return load_model(file);
     } catch (const Error&) {
       // Of another version, or broken: it is made from figures that are in the library itself.
     }

@@ -2,6 +2,7 @@
 // name while boxes play: all boxes of that name change to it at once, between two ticks.
 #pragma once
 
+#include <filesystem>
 #include <functional>
 #include <memory>
 #include <string>
@@ -17,7 +18,7 @@ using SharedModel = std::shared_ptr<const PlayModel>;
 
 // The model in a file; for the built-in name without a file, the one that lies beside the library,
 // or else one learnt on the spot.
-SharedModel load_model(const std::string& path);
+SharedModel load_model(const std::filesystem::path& path);
 SharedModel load_demo_model();
 
 // A box that uses the model of a name. Its class derives from this and calls join() at the end of

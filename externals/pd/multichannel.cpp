@@ -1,6 +1,6 @@
 #include "pd/multichannel.h"
 
-#include <dlfcn.h>
+#include "gait/platform/host_process.h"
 
 namespace gait::pd {
 
@@ -9,8 +9,7 @@ namespace {
 using SetMultiOut = void (*)(t_signal**, int);
 
 SetMultiOut set_multi_out() {
-  static const auto found =
-      reinterpret_cast<SetMultiOut>(dlsym(dlopen(nullptr, RTLD_NOW), "signal_setmultiout"));
+  static const auto found = reinterpret_cast<SetMultiOut>(program_function("signal_setmultiout"));
   return found;
 }
 

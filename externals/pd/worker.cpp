@@ -1,10 +1,5 @@
 #include "pd/worker.h"
 
-#ifdef __linux__
-#include <sys/resource.h>
-#include <unistd.h>
-#endif
-
 #include <atomic>
 #include <condition_variable>
 #include <deque>
@@ -12,6 +7,7 @@
 #include <mutex>
 #include <thread>
 
+#include "gait/platform/host_process.h"
 #include "pd/ticker.h"
 
 namespace gait::pd {
@@ -28,8 +24,8 @@ struct Job {
 }  // namespace
 
 struct Worker::Inside {
-  explicit Inside(int how_nice) : nice(how_nice) {}
-  const int nice;
+  explicit Inside(bool gives_way) : patient(gives_way) {}
+  const bool patient;
   std::mutex mutex;
   std::condition_variable wake;
   std::deque<std::shared_ptr<Job>> waiting;
@@ -39,10 +35,7 @@ struct Worker::Inside {
   std::thread thread{[this] { work(); }};
 
   void work() {
-#ifdef __linux__
-    // Of this thread and those it makes.
-    if (nice > 0) setpriority(PRIO_PROCESS, static_cast<id_t>(gettid()), nice);
-#endif
+    if (patient) give_way();
     for (;;) {
       std::shared_ptr<Job> job;
       {
@@ -76,15 +69,15 @@ struct Worker::Inside {
   }
 };
 
-Worker::Worker(int nice) : inside_(new Inside(nice)) { inside_->thread.detach(); }
+Worker::Worker(bool patient) : inside_(new Inside(patient)) { inside_->thread.detach(); }
 
 Worker& Worker::get() {
-  static Worker* const worker = new Worker(0);
+  static Worker* const worker = new Worker(false);
   return *worker;
 }
 
 Worker& Worker::patient() {
-  static Worker* const worker = new Worker(10);
+  static Worker* const worker = new Worker(true);
   return *worker;
 }
 

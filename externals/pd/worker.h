@@ -25,7 +25,7 @@ class Worker {
   void free_later(std::shared_ptr<const void> what);
 
  private:
-  explicit Worker(int nice);
+  explicit Worker(bool patient);
   struct Inside;
   Inside* inside_;
 };

@@ -7,7 +7,7 @@
 
 #include "file_ending.h"
 #include "gait/error.h"
-#include "gait/files/whole_file.h"
+#include "gait/platform/whole_file.h"
 
 namespace gait::tool {
 
@@ -15,9 +15,14 @@ namespace {
 
 constexpr int largest_side = 32767;  // Cairo's limit for pixels
 
-void check(cairo_status_t status, const std::string& what) {
+void check(cairo_status_t status) {
   if (status != CAIRO_STATUS_SUCCESS)
-    throw Error(what + ": cannot be drawn: " + cairo_status_to_string(status));
+    throw Error(std::string("the picture cannot be drawn: ") + cairo_status_to_string(status));
+}
+
+cairo_status_t append_bytes(void* bytes, const unsigned char* data, unsigned int size) {
+  static_cast<std::string*>(bytes)->append(reinterpret_cast<const char*>(data), size);
+  return CAIRO_STATUS_SUCCESS;
 }
 
 // The text without its last character, whole characters of UTF-8.
@@ -29,11 +34,11 @@ std::string shorter(std::string text) {
 
 }  // namespace
 
-Canvas::Canvas(cairo_surface_t* surface, int width, int height, const std::string& what)
+Canvas::Canvas(cairo_surface_t* surface, int width, int height)
     : surface_(surface), width_(width), height_(height) {
-  check(cairo_surface_status(surface), what);
+  check(cairo_surface_status(surface));
   context_.reset(cairo_create(surface));
-  check(cairo_status(context_.get()), what);
+  check(cairo_status(context_.get()));
   cairo_select_font_face(context_.get(), "sans-serif", CAIRO_FONT_SLANT_NORMAL,
                          CAIRO_FONT_WEIGHT_NORMAL);
   // Screen settings must not change a picture.
@@ -52,15 +57,18 @@ Canvas Canvas::of_pixels(int width, int height) {
     throw Error("the picture would be " + std::to_string(width) + " x " + std::to_string(height) +
                 " pixels, at most " + std::to_string(largest_side) +
                 " each way can be drawn: give fewer clips, or an .svg");
-  return Canvas(cairo_image_surface_create(CAIRO_FORMAT_RGB24, width, height), width, height,
-                "the picture");
+  return Canvas(cairo_image_surface_create(CAIRO_FORMAT_RGB24, width, height), width, height);
 }
 
-Canvas Canvas::of_svg(const std::filesystem::path& path, int width, int height) {
-  cairo_surface_t* surface = cairo_svg_surface_create(path.c_str(), width, height);
+Canvas Canvas::of_svg(int width, int height) {
+  auto bytes = std::make_unique<std::string>();
+  cairo_surface_t* surface =
+      cairo_svg_surface_create_for_stream(append_bytes, bytes.get(), width, height);
   if (cairo_surface_status(surface) == CAIRO_STATUS_SUCCESS)
     cairo_svg_surface_set_document_unit(surface, CAIRO_SVG_UNIT_PX);
-  return Canvas(surface, width, height, path.string());
+  Canvas canvas(surface, width, height);
+  canvas.bytes_ = std::move(bytes);
+  return canvas;
 }
 
 void Canvas::clear() {
@@ -132,19 +140,18 @@ double Canvas::text(double x, double y, const std::string& text, double size, Co
   return width;
 }
 
-void Canvas::write_png(const std::filesystem::path& path) {
-  check(cairo_status(context_.get()), path.string());
-  const cairo_status_t status = cairo_surface_write_to_png(surface_.get(), path.c_str());
-  if (status != CAIRO_STATUS_SUCCESS)
-    throw Error(path.string() + ": cannot be written: " + cairo_status_to_string(status));
+std::string Canvas::png() {
+  check(cairo_status(context_.get()));
+  std::string bytes;
+  check(cairo_surface_write_to_png_stream(surface_.get(), append_bytes, &bytes));
+  return bytes;
 }
 
-void Canvas::finish(const std::filesystem::path& path) {
-  check(cairo_status(context_.get()), path.string());
+std::string Canvas::svg() {
+  check(cairo_status(context_.get()));
   cairo_surface_finish(surface_.get());
-  const cairo_status_t status = cairo_surface_status(surface_.get());
-  if (status != CAIRO_STATUS_SUCCESS)
-    throw Error(path.string() + ": cannot be written: " + cairo_status_to_string(status));
+  check(cairo_surface_status(surface_.get()));
+  return std::move(*bytes_);
 }
 
 const unsigned char* Canvas::pixels() {
@@ -157,15 +164,10 @@ void write_picture(const std::filesystem::path& path, double width, double heigh
   const int columns = static_cast<int>(std::lround(width));
   const int rows = static_cast<int>(std::lround(height));
   WholeFile output(path);
-  if (ending_of(path) == ".svg") {
-    Canvas canvas = Canvas::of_svg(output.part(), columns, rows);
-    draw(canvas);
-    canvas.finish(path);
-  } else {
-    Canvas canvas = Canvas::of_pixels(columns, rows);
-    draw(canvas);
-    canvas.write_png(output.part());
-  }
+  const bool svg = ending_of(path) == ".svg";
+  Canvas canvas = svg ? Canvas::of_svg(columns, rows) : Canvas::of_pixels(columns, rows);
+  draw(canvas);
+  output.write(svg ? canvas.svg() : canvas.png());
   output.keep();
 }
 

@@ -35,8 +35,7 @@ class Canvas {
  public:
   // Pixels in memory, 32 bits each, blue first. Throws Error when it is too large.
   static Canvas of_pixels(int width, int height);
-  // An SVG file, finished by finish().
-  static Canvas of_svg(const std::filesystem::path& path, int width, int height);
+  static Canvas of_svg(int width, int height);
 
   void clear();
   void line(double x0, double y0, double x1, double y1, double width, Colour colour,
@@ -53,9 +52,9 @@ class Canvas {
               Align align = Align::left, double room = 1e9);
   double text_width(const std::string& text, double size);
 
-  void write_png(const std::filesystem::path& path);  // of_pixels only; throws Error
-  void finish(const std::filesystem::path& path);     // of_svg only; throws Error naming `path`
-  const unsigned char* pixels();                      // of_pixels only; rows without gaps
+  std::string png();              // of_pixels only: the file's bytes; throws Error
+  std::string svg();              // of_svg only, the last call: the file's bytes; throws Error
+  const unsigned char* pixels();  // of_pixels only; rows without gaps
   int width() const { return width_; }
   int height() const { return height_; }
 
@@ -64,11 +63,12 @@ class Canvas {
     void operator()(cairo_surface_t* surface) const { cairo_surface_destroy(surface); }
     void operator()(cairo_t* context) const { cairo_destroy(context); }
   };
-  Canvas(cairo_surface_t* surface, int width, int height, const std::string& what);
+  Canvas(cairo_surface_t* surface, int width, int height);
   void colour(Colour colour) {
     cairo_set_source_rgb(context_.get(), colour.red, colour.green, colour.blue);
   }
 
+  std::unique_ptr<std::string> bytes_;  // what the surface below wrote; null: pixels
   std::unique_ptr<cairo_surface_t, Destroy> surface_;
   std::unique_ptr<cairo_t, Destroy> context_;
   int width_, height_;

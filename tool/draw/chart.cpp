@@ -271,7 +271,7 @@ Marker line_marker(std::size_t line) {
 void fit_x(Panel& panel) { fit(panel.x, panel.series, &Spot::x, 0.02); }
 void fit_y(Panel& panel) { fit(panel.y, panel.series, &Spot::y, 0.07); }
 
-void write_chart(const Chart& chart, const std::string& path) {
+void write_chart(const Chart& chart, const std::filesystem::path& path) {
   const std::vector<const Series*> legend = legend_of(chart);
   const Page page = page_for(chart, legend);
   write_picture(path, page.width, page.height,

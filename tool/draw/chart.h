@@ -5,6 +5,7 @@
 // darker, with other marks and dashes.
 #pragma once
 
+#include <filesystem>
 #include <string>
 #include <vector>
 
@@ -55,6 +56,6 @@ void fit_x(Panel& panel);
 void fit_y(Panel& panel);
 
 // Writes the picture, .svg or .png as `path` ends. Throws Error when it cannot be written.
-void write_chart(const Chart& chart, const std::string& path);
+void write_chart(const Chart& chart, const std::filesystem::path& path);
 
 }  // namespace gait::tool

@@ -1,37 +1,28 @@
-// An ffmpeg process that is fed raw pictures and makes a film of them. Started without a shell.
+// An ffmpeg process that is fed raw pictures and makes a film of them.
 #pragma once
 
-#include <sys/types.h>
-
 #include <cstddef>
-#include <cstdio>
 #include <filesystem>
 #include <memory>
+
+#include "gait/platform/child_process.h"
 
 namespace gait::tool {
 
 class Ffmpeg {
  public:
   // Pictures of `width` x `height` pixels (both even), four bytes each, blue first. Throws Error
-  // when ffmpeg is not there.
+  // when ffmpeg is not there. When finish() is not reached, the process is ended.
   Ffmpeg(const std::filesystem::path& film, int width, int height, double frame_rate);
-  ~Ffmpeg();  // ends the process when finish() was not reached
-  Ffmpeg(const Ffmpeg&) = delete;
-  Ffmpeg& operator=(const Ffmpeg&) = delete;
 
   void add(const unsigned char* pixels);  // throws Error when ffmpeg has gone
   void finish();                          // waits for it; throws Error with its last words
 
  private:
-  struct Close {
-    void operator()(std::FILE* file) const { std::fclose(file); }
-  };
   [[noreturn]] void fail();
 
   std::size_t bytes_;
-  std::unique_ptr<std::FILE, Close> words_;  // its stderr
-  pid_t process_ = -1;
-  int pipe_ = -1;
+  std::unique_ptr<ChildProcess> process_;
 };
 
 }  // namespace gait::tool

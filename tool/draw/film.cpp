@@ -7,7 +7,7 @@
 #include "draw/ffmpeg.h"
 #include "draw/legend.h"
 #include "draw/stick_figure.h"
-#include "gait/files/whole_file.h"
+#include "gait/platform/whole_file.h"
 #include "number_words.h"
 
 namespace gait::tool {

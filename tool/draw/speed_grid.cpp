@@ -121,7 +121,7 @@ void draw(Canvas& canvas, const std::vector<Row>& rows, const Page& page) {
 }  // namespace
 
 void write_speed_grid(const std::shared_ptr<const Model>& model, const SpeedGrid& grid,
-                      const std::string& path) {
+                      const std::filesystem::path& path) {
   const PlayModel played(model);
   const JointRoles roles = body_roles(*model->body);
   std::vector<double> legs = grid.leg_lengths;

@@ -2,6 +2,7 @@
 // to right, legs from top to bottom, all at one scale.
 #pragma once
 
+#include <filesystem>
 #include <memory>
 #include <string>
 #include <vector>
@@ -19,6 +20,6 @@ struct SpeedGrid {
 // Draws what the speed walker walks, at right contact. Throws Error when the model has no walks
 // over speed. What was clamped goes to stderr as warnings of `gait render`.
 void write_speed_grid(const std::shared_ptr<const Model>& model, const SpeedGrid& grid,
-                      const std::string& path);
+                      const std::filesystem::path& path);
 
 }  // namespace gait::tool

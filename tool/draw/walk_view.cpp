@@ -9,6 +9,7 @@
 #include "gait/motion/contacts.h"
 #include "gait/motion/heading.h"
 #include "gait/motion/kinematics.h"
+#include "gait/platform/path_text.h"
 
 namespace gait::tool {
 
@@ -78,7 +79,7 @@ void Extent::include(const WalkView& view, int frame, double half_limb) {
 
 WalkView view_walk(const Clip& clip, const JointRoles& roles, double degrees) {
   WalkView view;
-  view.name = std::filesystem::path(clip.name).stem().string();
+  view.name = utf8_of(path_from_utf8(clip.name).stem());
   view.frame_rate = clip.frame_rate;
   view.frames = clip.frames();
   view.in_metres = roles.has_legs();

@@ -4,6 +4,7 @@
 #include "gait/error.h"
 #include "gait/files/bvh.h"
 #include "gait/files/label_file.h"
+#include "gait/platform/path_text.h"
 
 namespace gait {
 namespace {
@@ -27,10 +28,10 @@ std::vector<std::filesystem::path> write_corpus(const std::filesystem::path& fol
   std::error_code failure;
   std::filesystem::create_directories(folder, failure);
   if (failure)
-    throw Error(folder.string() + ": expected a folder to write to: " + failure.message());
+    throw Error(utf8_of(folder) + ": expected a folder to write to: " + failure.message());
   std::vector<std::filesystem::path> paths;
   for (const CorpusWalk& walk : walks) {
-    paths.push_back(folder / (walk.clip.name + ".bvh"));
+    paths.push_back(folder / path_from_utf8(walk.clip.name + ".bvh"));
     write_bvh(bvh_from_clip(in_units(walk.clip, metres_per_unit)), paths.back());
     write_labels(labels_from_contacts(walk.contacts, walk.clip.frame_rate), LabelForm::audacity,
                  std::filesystem::path(paths.back()).replace_extension(".txt"));

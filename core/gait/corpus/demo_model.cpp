@@ -2,6 +2,7 @@
 
 #include "gait/corpus/corpus.h"
 #include "gait/model/model_file.h"
+#include "gait/platform/path_text.h"
 #include "gait/teach/walk_model.h"
 
 namespace gait {
@@ -37,7 +38,8 @@ Model make_demo_model(int threads) {
 }
 
 Model model_named(const std::string& name_or_path) {
-  return name_or_path == demo_model_name ? make_demo_model() : read_model(name_or_path);
+  return name_or_path == demo_model_name ? make_demo_model()
+                                         : read_model(path_from_utf8(name_or_path));
 }
 
 }  // namespace gait

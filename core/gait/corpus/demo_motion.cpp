@@ -4,6 +4,7 @@
 #include "gait/corpus/demo_model.h"
 #include "gait/error.h"
 #include "gait/numbers.h"
+#include "gait/platform/path_text.h"
 
 namespace gait {
 
@@ -60,7 +61,7 @@ BodyMotion demo_motion(std::string_view name, const Model& model) {
 
 BodyMotion motion_named(const std::string& name_or_path, const Model& model) {
   return names_demo_motion(name_or_path) ? demo_motion(name_or_path, model)
-                                         : read_motion(name_or_path, model);
+                                         : read_motion(path_from_utf8(name_or_path), model);
 }
 
 }  // namespace gait

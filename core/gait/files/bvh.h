@@ -14,6 +14,7 @@
 #include <vector>
 
 #include "gait/motion/clip.h"
+#include "gait/alignment.h"
 
 namespace gait {
 

@@ -1,10 +1,10 @@
-#include <array>
 #include <cmath>
-#include <fstream>
 #include <utility>
 
 #include "gait/files/bvh.h"
 #include "gait/files/bvh_cursor.h"
+#include "gait/platform/path_text.h"
+#include "gait/platform/whole_file.h"
 
 namespace gait {
 namespace {
@@ -14,7 +14,6 @@ constexpr std::size_t deepest_nesting = 200;
 constexpr int most_joints = 10000;
 constexpr long long most_channels_per_joint = 32;
 constexpr long long most_frames = 1'000'000'000;
-constexpr std::size_t largest_file = std::size_t{1} << 30;
 
 Eigen::Vector3d read_offset(BvhCursor& cursor) {
   Eigen::Vector3d offset;
@@ -193,20 +192,7 @@ BvhFile parse_bvh(std::string_view text, std::string name) {
 }
 
 BvhFile read_bvh(const std::filesystem::path& path) {
-  std::error_code ignored;
-  if (std::filesystem::is_directory(path, ignored))
-    throw Error(path.string() + ": expected a BVH file, found a directory");
-  std::ifstream stream(path, std::ios::binary);
-  if (!stream) throw Error(path.string() + ": expected a BVH file, cannot open it");
-  std::string text;
-  std::array<char, 1 << 16> block;
-  while (stream.read(block.data(), block.size()) || stream.gcount() > 0) {
-    text.append(block.data(), static_cast<std::size_t>(stream.gcount()));
-    if (text.size() > largest_file)
-      throw Error(path.string() + ": expected a BVH file below 1 GiB, found a larger one");
-  }
-  if (stream.bad()) throw Error(path.string() + ": cannot be read to its end");
-  return parse_bvh(text, path.string());
+  return parse_bvh(read_whole_file(path, "a BVH file"), utf8_of(path));
 }
 
 }  // namespace gait

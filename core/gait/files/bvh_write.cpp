@@ -4,7 +4,7 @@
 
 #include "gait/error.h"
 #include "gait/files/bvh.h"
-#include "gait/files/whole_file.h"
+#include "gait/platform/whole_file.h"
 
 namespace gait {
 namespace {

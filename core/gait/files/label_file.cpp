@@ -4,12 +4,12 @@
 #include <array>
 #include <cmath>
 #include <cstdint>
-#include <fstream>
 #include <optional>
 
 #include "gait/error.h"
-#include "gait/files/whole_file.h"
 #include "gait/numbers.h"
+#include "gait/platform/path_text.h"
+#include "gait/platform/whole_file.h"
 
 namespace gait {
 namespace {
@@ -123,12 +123,7 @@ LabelFile parse_labels(std::string_view text, const std::string& name) {
 }
 
 LabelFile read_labels(const std::filesystem::path& path) {
-  std::error_code ignored;
-  std::ifstream stream(path, std::ios::binary);
-  if (!stream || std::filesystem::is_directory(path, ignored))
-    throw Error(path.string() + ": expected a label file, cannot open it");
-  const std::string text{std::istreambuf_iterator<char>(stream), {}};
-  return parse_labels(text, path.string());
+  return parse_labels(read_whole_file(path, "a label file"), utf8_of(path));
 }
 
 std::string labels_text(const std::vector<LabelSegment>& segments, LabelForm form) {

@@ -8,6 +8,7 @@
 #include "gait/motion/contacts.h"
 #include "gait/motion/rotation.h"
 #include "gait/names.h"
+#include "gait/platform/path_text.h"
 
 namespace gait {
 
@@ -20,7 +21,7 @@ constexpr double other_rig = 0.61;  // 35 degrees
 constexpr double usual_cycle = 1.1;  // seconds: for the heading of a subject that stands
 
 bool is_standing(const Walk& walk) {
-  std::string name = std::filesystem::path(walk.clip.name).filename().string() + " " + walk.style;
+  std::string name = utf8_of(path_from_utf8(walk.clip.name).filename()) + " " + walk.style;
   std::transform(name.begin(), name.end(), name.begin(),
                  [](unsigned char letter) { return static_cast<char>(std::tolower(letter)); });
   return name.find("stand") != std::string::npos;

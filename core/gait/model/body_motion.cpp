@@ -10,6 +10,7 @@
 #include "gait/motion/contacts.h"
 #include "gait/motion/kinematics.h"
 #include "gait/motion/resample.h"
+#include "gait/platform/path_text.h"
 
 namespace gait {
 
@@ -130,7 +131,7 @@ BodyMotion read_motion(const std::filesystem::path& path, const Model& model) {
     const auto beside = std::filesystem::path(path).replace_extension(ending);
     std::error_code ignored;
     if (!std::filesystem::is_regular_file(beside, ignored)) continue;
-    labels_name = beside.string();
+    labels_name = utf8_of(beside);
     labels = read_labels(beside).segments;
     break;
   }

@@ -12,6 +12,7 @@
 #include <vector>
 
 #include "gait/model/model.h"
+#include "gait/alignment.h"
 
 namespace gait {
 

@@ -1,5 +1,4 @@
 #include <cmath>
-#include <fstream>
 
 #include "gait/error.h"
 #include "gait/model/model_field.h"
@@ -7,13 +6,14 @@
 #include "gait/model/model_file.h"
 #include "gait/model/model_words.h"
 #include "gait/names.h"
+#include "gait/platform/path_text.h"
+#include "gait/platform/whole_file.h"
 
 namespace gait {
 
 namespace {
 
 // Models are some megabytes. A film that was named by mistake is refused before it is read.
-constexpr std::uintmax_t largest_file = std::uintmax_t{1} << 30;
 
 template <typename Words>
 auto kind_of(const Words& words, const ModelField& field) {
@@ -141,23 +141,6 @@ void expect_format(const ModelField& document) {
                  std::to_string(version.integer()) + ": the model was made by a newer gait");
 }
 
-std::vector<std::uint8_t> bytes_of(const std::filesystem::path& path) {
-  std::error_code error;
-  const std::uintmax_t size =
-      std::filesystem::is_regular_file(path, error) ? std::filesystem::file_size(path, error) : 0;
-  if (error || !std::filesystem::is_regular_file(path, error))
-    throw Error(path.string() + ": expected a model file" +
-                (error ? ": " + error.message() : ", found something else"));
-  if (size > largest_file)
-    throw Error(path.string() + ": expected a model file of at most 1 GB, found " +
-                std::to_string(size / (1 << 20)) + " MB");
-  std::vector<std::uint8_t> bytes(size);
-  std::ifstream stream(path, std::ios::binary);
-  stream.read(reinterpret_cast<char*>(bytes.data()), static_cast<std::streamsize>(size));
-  if (!stream) throw Error(path.string() + ": cannot be read");
-  return bytes;
-}
-
 }  // namespace
 
 Model parse_model(std::span<const std::uint8_t> bytes, const std::string& name) {
@@ -176,7 +159,9 @@ Model parse_model(std::span<const std::uint8_t> bytes, const std::string& name) 
 }
 
 Model read_model(const std::filesystem::path& path) {
-  return parse_model(bytes_of(path), path.string());
+  const std::string bytes = read_whole_file(path, "a model file");
+  return parse_model({reinterpret_cast<const std::uint8_t*>(bytes.data()), bytes.size()},
+                     utf8_of(path));
 }
 
 }  // namespace gait

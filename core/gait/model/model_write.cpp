@@ -1,11 +1,11 @@
 #include <nlohmann/json.hpp>
 
 #include "gait/error.h"
-#include "gait/files/whole_file.h"
 #include "gait/model/model_field.h"
 #include "gait/model/model_fields.h"
 #include "gait/model/model_file.h"
 #include "gait/model/model_words.h"
+#include "gait/platform/whole_file.h"
 
 namespace gait {
 

@@ -1,12 +1,13 @@
 #include "gait/motion/joint_roles.h"
 
 #include <algorithm>
-#include <fstream>
 #include <utility>
 
 #include "gait/error.h"
 #include "gait/motion/joint_names.h"
 #include "gait/names.h"
+#include "gait/platform/path_text.h"
+#include "gait/platform/whole_file.h"
 
 namespace gait {
 namespace {
@@ -213,11 +214,7 @@ RoleTable parse_role_table(std::string_view text, const std::string& name) {
 }
 
 RoleTable read_role_table(const std::filesystem::path& path) {
-  std::ifstream stream(path, std::ios::binary);
-  if (!stream || std::filesystem::is_directory(path))
-    throw Error(path.string() + ": expected a table of roles, cannot open it");
-  const std::string text{std::istreambuf_iterator<char>(stream), {}};
-  return parse_role_table(text, path.string());
+  return parse_role_table(read_whole_file(path, "a table of roles"), utf8_of(path));
 }
 
 }  // namespace gait

@@ -2,11 +2,12 @@
 
 #include <algorithm>
 #include <cmath>
-#include <fstream>
 #include <iomanip>
 #include <sstream>
 
 #include "gait/error.h"
+#include "gait/platform/path_text.h"
+#include "gait/platform/whole_file.h"
 
 namespace gait {
 
@@ -60,9 +61,9 @@ void write_take(const RecordedTake& take, std::ostream& file) {
   }
 }
 
-std::vector<RecordedTake> read_takes(const std::string& path) {
-  std::ifstream file(path);
-  if (!file) throw Error(path + ": expected a file that can be read");
+std::vector<RecordedTake> read_takes(const std::filesystem::path& file_path) {
+  std::ifstream file = open_to_read(file_path, "recorded takes");
+  const std::string path = utf8_of(file_path);
   std::string line;
   int number = 1;
   if (!std::getline(file, line) || line != first_line)

@@ -8,6 +8,7 @@
 // A label with a space or quote in it is written in double quotes, with \" and \\ inside.
 #pragma once
 
+#include <filesystem>
 #include <iosfwd>
 #include <string>
 #include <vector>
@@ -31,7 +32,7 @@ void write_takes_header(std::ostream& file);
 void write_take(const RecordedTake& take, std::ostream& file);
 
 // Throws Error with file, line and what was expected. A last take that was cut off is left out.
-std::vector<RecordedTake> read_takes(const std::string& path);
+std::vector<RecordedTake> read_takes(const std::filesystem::path& path);
 
 // At `frame_rate`, linearly between the frames that came.
 Take at_rate(const RecordedTake& take, double frame_rate);

@@ -6,11 +6,12 @@
 #include <cstdint>
 #include <memory>
 #include <span>
-#include <thread>
 
+#include "gait/joining_thread.h"
 #include "gait/osc/event_ring.h"
 #include "gait/osc/mocap_event.h"
 #include "gait/osc/mocap_reader.h"
+#include "gait/platform/udp_socket.h"
 
 namespace gait::osc {
 
@@ -37,7 +38,7 @@ class Receiver final : EventSink {
   Receiver(const Receiver&) = delete;
   Receiver& operator=(const Receiver&) = delete;
 
-  int port() const noexcept { return port_; }
+  int port() const { return socket_.port(); }
   // The next event, in the order of arrival; false when there is none. One thread at a time.
   bool pop(MocapEvent& event) noexcept { return ring_.pop(event); }
   Received received() const noexcept;
@@ -53,11 +54,11 @@ class Receiver final : EventSink {
 
   MocapReader reader_;
   EventRing<MocapEvent> ring_;
-  int socket_ = -1, port_ = 0;
-  int wake_[2] = {-1, -1};  // a pipe: a byte in it ends the thread
+  UdpSocket socket_;
+  PacketWaiter waiter_{socket_};  // woken, it ends the thread
   Arrival arrival_;
   std::atomic<std::uint64_t> packets_{0}, messages_{0}, unknown_{0}, faulty_{0}, dropped_{0};
-  std::thread thread_;
+  JoiningThread thread_;
 };
 
 }  // namespace gait::osc

@@ -1,10 +1,23 @@
-// Files that appear whole or not at all: written beside their place, then renamed.
+// Files read as a whole, and files that appear whole or not at all: written beside their place,
+// then renamed. Errors carry the system's own reason.
 #pragma once
 
+#include <cstdint>
 #include <filesystem>
+#include <fstream>
+#include <string>
 #include <string_view>
 
 namespace gait {
+
+// A file to read, as bytes. Throws Error that begins with the path and names what was `expected`
+// ("a BVH file") when it cannot be opened or is a folder.
+std::ifstream open_to_read(const std::filesystem::path& path, std::string_view expected);
+
+// All bytes of a file. Throws Error as open_to_read does, and when the file is larger than
+// `largest` bytes.
+std::string read_whole_file(const std::filesystem::path& path, std::string_view expected,
+                            std::uintmax_t largest = std::uintmax_t{1} << 30);
 
 class WholeFile {
  public:
@@ -17,6 +30,9 @@ class WholeFile {
 
   const std::filesystem::path& path() const { return path_; }  // where it will be
   const std::filesystem::path& part() const { return part_; }  // where to write it
+
+  // Writes all bytes to part(). Throws Error when that fails.
+  void write(std::string_view bytes) const;
 
   // Moves the finished file to its place. Throws Error when that fails.
   void keep();
