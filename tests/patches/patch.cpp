@@ -5,10 +5,12 @@
 
 #include <algorithm>
 #include <array>
+#include <cmath>
 #include <cstdio>
 #include <cstdlib>
 #include <filesystem>
 #include <fstream>
+#include <iterator>
 #include <regex>
 #include <sstream>
 #include <thread>
@@ -86,6 +88,22 @@ std::string pd_program() {
 }
 
 bool has_pd() { return pd_program().find("NOTFOUND") == std::string::npos; }
+
+bool says(const std::vector<std::string>& lines, const std::string& line) {
+  const auto same_word = [](const std::string& one, const std::string& other) {
+    char *one_end = nullptr, *other_end = nullptr;
+    const double a = std::strtod(one.c_str(), &one_end), b = std::strtod(other.c_str(), &other_end);
+    const bool numbers = *one_end == '\0' && *other_end == '\0';
+    return numbers ? std::abs(a - b) <= 1e-7 * (1 + std::abs(b)) : one == other;
+  };
+  const auto words_of = [](const std::string& text) {
+    std::istringstream words(text);
+    return std::vector<std::string>(std::istream_iterator<std::string>(words), {});
+  };
+  return std::ranges::any_of(lines, [&](const std::string& said) {
+    return std::ranges::equal(words_of(said), words_of(line), same_word);
+  });
+}
 
 bool can_watch() { return std::string(GAIT_PD_PRELOAD).empty(); }
 

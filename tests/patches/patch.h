@@ -62,6 +62,10 @@ struct PdRun {
   std::vector<std::string> errors() const;
 };
 
+// Whether one of these lines is `line`, numbers compared as single precision: Pd with 64-bit floats
+// writes more digits of them.
+bool says(const std::vector<std::string>& lines, const std::string& line);
+
 // Whether allocations can be watched here: a sanitizer has an allocator of its own.
 bool can_watch();
 // How many there were; -1 when nothing was watched.
