@@ -4,6 +4,7 @@
 #include <cstdio>
 
 #include "gait/error.h"
+#include "gait/motion/rest_rows.h"
 #include "gait/names.h"
 #include "option_kinds.h"
 
@@ -34,19 +35,30 @@ BodyFrameOverride said_of_frame(const ClipReading& reading) {
   return said;
 }
 
-void add_unit_and_up(CLI::App& app, ClipReading& reading) {
+void add_unit_up_and_rate(CLI::App& app, ClipReading& reading) {
   add_value(app, "--unit", "UNIT", reading.unit,
             "Unit of the files: m, cm, mm, in, ft or metres per unit (guessed from the legs)")
       ->check(CLI::Validator(unit_fault, ""));
   add_value(app, "--up", "AXIS", reading.up,
             "Axis that points up: x, y or z (guessed from the body)")
       ->transform(CLI::IsMember({"x", "y", "z"}, CLI::ignore_case));
+  add_value(app, "--fps", "HZ", reading.fps,
+            "Frames per second, where the files' Frame Time is wrong (the files')")
+      ->check(within(1, 2000));
 }
 
 void add_clip_reading(CLI::App& app, ClipReading& reading) {
-  add_unit_and_up(app, reading);
+  add_unit_up_and_rate(app, reading);
   add_value(app, "--roles", "FILE", reading.roles,
             "File with lines `joint = role` for names that are not understood");
+}
+
+BvhFile read_file(const std::filesystem::path& path, const ClipReading& reading,
+                  const std::string& command) {
+  BvhFile file = read_bvh(path);
+  print_warnings(command, file.warnings);
+  if (reading.fps) file.frame_time = 1 / *reading.fps;
+  return file;
 }
 
 ReadClip read_clip(const std::filesystem::path& path, const ClipReading& reading,
@@ -54,9 +66,12 @@ ReadClip read_clip(const std::filesystem::path& path, const ClipReading& reading
   const RoleTable table = reading.roles.empty() ? RoleTable{} : read_role_table(reading.roles);
 
   ReadClip read;
-  read.file = read_bvh(path);
-  print_warnings(command, read.file.warnings);
-  const Clip in_file = clip_from_bvh(read.file);
+  read.file = read_file(path, reading, command);
+  const Clip whole = clip_from_bvh(read.file);
+  const MovingRows rows = moving_rows(whole);
+  if (const auto told = rest_rows_told(whole, rows)) print_warnings(command, {*told});
+  read.first_row = rows.begin;
+  const Clip in_file = rows_of(whole, rows);
   read.roles = find_roles(in_file.skeleton, table);
   read.frame = guess_body_frame(in_file, read.roles, said_of_frame(reading));
   print_warnings(command, read.frame.warnings);

@@ -4,6 +4,7 @@
 
 #include <CLI/CLI.hpp>
 #include <filesystem>
+#include <optional>
 #include <string>
 #include <vector>
 
@@ -16,24 +17,30 @@ namespace gait::tool {
 
 // What the user says instead of the guess; empty: guessed.
 struct ClipReading {
-  std::string unit;   // --unit
-  std::string up;     // --up
-  std::string roles;  // --roles, a file
+  std::string unit;           // --unit
+  std::string up;             // --up
+  std::string roles;          // --roles, a file
+  std::optional<double> fps;  // --fps
 };
 
-// Adds --unit, --up and --roles, checked while the command line is read.
+// Adds --unit, --up, --fps and --roles, checked while the command line is read.
 void add_clip_reading(CLI::App& app, ClipReading& reading);
-// --unit and --up alone, for what finds roles without names.
-void add_unit_and_up(CLI::App& app, ClipReading& reading);
+// All but --roles, for what finds roles without names.
+void add_unit_up_and_rate(CLI::App& app, ClipReading& reading);
 
 BodyFrameOverride said_of_frame(const ClipReading& reading);
 
 // To stderr, as `gait COMMAND: warning: ...`.
 void print_warnings(const std::string& command, const std::vector<std::string>& warnings);
 
+// A file as it is written, but with the frame time of --fps. Warnings go to stderr.
+BvhFile read_file(const std::filesystem::path& path, const ClipReading& reading,
+                  const std::string& command);
+
 struct ReadClip {
-  BvhFile file;  // as it is written
-  Clip clip;     // metres, Y up
+  BvhFile file;       // as it is written
+  Clip clip;          // metres, Y up, without rest rows
+  int first_row = 0;  // the file's row that is the clip's frame 0
   JointRoles roles;
   BodyFrame frame;
   std::vector<std::string> roles_without_joint;  // names of --roles that this clip does not have

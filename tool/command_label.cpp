@@ -25,7 +25,7 @@ struct LabelOptions {
 
 struct LabelledClip {
   std::string path;
-  int frames = 0;
+  int frames = 0;  // rows of the file, in which contacts are counted
   double frame_rate = 30;
   WalkTrack track;
   std::vector<Step> steps;
@@ -34,8 +34,10 @@ struct LabelledClip {
 LabelledClip label_clip(const std::string& path, const ClipReading& reading) {
   const ReadClip read = read_clip(path, reading, "label");
   warn_of_roles("label", reading, read.roles_without_joint);
-  LabelledClip labelled{path, read.clip.frames(), read.clip.frame_rate, {}, {}};
+  LabelledClip labelled{
+      path, static_cast<int>(read.file.values.rows()), read.clip.frame_rate, {}, {}};
   labelled.track = follow_walk(read.clip, read.roles);
+  for (Contact& contact : labelled.track.contacts) contact.frame += read.first_row;
   labelled.steps = steps_between(labelled.track.contacts);
   if (labelled.steps.empty())
     std::fprintf(stderr, "gait label: warning: %s: no steps found\n", path.c_str());

@@ -31,14 +31,13 @@ void reconstruct(const ReconstructOptions& options) {
   if (!options.table.empty()) table.emplace(options.table);
 
   const auto model = std::make_shared<const Model>(model_named(options.model));
-  const BvhFile file = read_bvh(options.clip);
-  print_warnings("reconstruct", file.warnings);
+  const BvhFile file = read_file(options.clip, options.reading, "reconstruct");
   const ReconstructedFile result =
       reconstruct_file(model, file, said_of_frame(options.reading), options.settings,
                        options.root == "feet" ? FileRoot::feet : FileRoot::file, options.calibrate);
   print_warnings("reconstruct", result.warnings);
   write_bvh(result.file, output.part());
-  if (table) write_decisions(result.walk, *model, table->part());
+  if (table) write_decisions(result.walk, *model, table->part(), result.first_row);
   output.keep();
   if (table) table->keep();
 }
@@ -58,7 +57,7 @@ void add_options(CLI::App& app, ReconstructOptions& options) {
   app.add_flag("--calibrate", options.calibrate,
                "Accept bones that rest in other directions than the model's: turn their joints' "
                "frames to match, and back again");
-  add_unit_and_up(app, options.reading);
+  add_unit_up_and_rate(app, options.reading);
   app.footer(
       R"(Only the model's input joints are looked at. Delays that --lag or --future ask for are taken
 out again: frame t of what is written belongs to frame t of the clip.

@@ -120,13 +120,15 @@ std::vector<fs::path> files_meant(const WalkReading& reading, const Manifest& ma
 }
 
 // Contacts from a label file beside the clip, if there is one.
-std::vector<Contact> contacts_beside(const fs::path& path, const Clip& clip, std::string& remark) {
+std::vector<Contact> contacts_beside(const fs::path& path, const Clip& clip, int first_row,
+                                     std::string& remark) {
   for (const char* ending : {".txt", ".lab"}) {
     const fs::path labels = fs::path(path).replace_extension(ending);
     if (!fs::is_regular_file(labels)) continue;
     std::vector<Contact> contacts;
     try {
-      contacts = contacts_from_labels(read_labels(labels).segments, clip.frame_rate);
+      contacts = contacts_from_labels(
+          labels_from(read_labels(labels).segments, first_row / clip.frame_rate), clip.frame_rate);
     } catch (const Error& error) {
       const std::string text = error.what();
       throw Error((text.starts_with(labels.string()) ? "" : labels.string() + ": ") + text +
@@ -195,7 +197,8 @@ WalksRead read_walks(const WalkReading& reading, const std::string& command,
     walk.style = fields.style;
     walk.subject = fields.subject;
     walk.speed = fields.speed;
-    if (!reading.no_labels) walk.contacts = contacts_beside(path, walk.clip, file.remark);
+    if (!reading.no_labels)
+      walk.contacts = contacts_beside(path, walk.clip, in_file.first_row, file.remark);
     read.walks.push_back(std::move(walk));
     read.files.push_back(std::move(file));
   }

@@ -10,6 +10,7 @@
 #include "gait/motion/contacts.h"
 #include "gait/motion/kinematics.h"
 #include "gait/motion/resample.h"
+#include "gait/motion/rest_rows.h"
 
 namespace gait {
 
@@ -115,7 +116,9 @@ BodyMotion motion_on_body(const Clip& clip, const Model& model, std::vector<Labe
 
 BodyMotion read_motion(const std::filesystem::path& path, const Model& model) {
   const BvhFile file = read_bvh(path);
-  const Clip in_file = clip_from_bvh(file);
+  const Clip whole = clip_from_bvh(file);
+  const MovingRows rows = moving_rows(whole);
+  const Clip in_file = rows_of(whole, rows);
   if (in_file.frames() == 0) throw Error(file.name + ": expected frames to play, found none");
   const Body& body = required_body(model);
   const JointRoles roles =
@@ -131,7 +134,7 @@ BodyMotion read_motion(const std::filesystem::path& path, const Model& model) {
     std::error_code ignored;
     if (!std::filesystem::is_regular_file(beside, ignored)) continue;
     labels_name = beside.string();
-    labels = read_labels(beside).segments;
+    labels = labels_from(read_labels(beside).segments, rows.begin / in_file.frame_rate);
     break;
   }
   BodyMotion motion;
@@ -143,6 +146,7 @@ BodyMotion read_motion(const std::filesystem::path& path, const Model& model) {
     throw Error((of_labels ? labels_name + ": " : "") + text);
   }
   motion.warnings = file.warnings;
+  if (const auto told = rest_rows_told(whole, rows)) motion.warnings.push_back(*told);
   motion.warnings.insert(motion.warnings.end(), frame.warnings.begin(), frame.warnings.end());
   return motion;
 }

@@ -8,6 +8,7 @@
 #include "gait/motion/contacts.h"
 #include "gait/motion/kinematics.h"
 #include "gait/motion/rest_calibration.h"
+#include "gait/motion/rest_rows.h"
 
 namespace gait {
 
@@ -256,7 +257,19 @@ ReconstructedFile reconstruct_file(std::shared_ptr<const Model> model, const Bvh
                                    FileRoot root, bool calibrate) {
   if (file.values.rows() == 0)
     throw Error(file.name + ": expected frames to reconstruct, found none");
-  return FileReconstruction(std::move(model), file, said, root, calibrate).run(settings);
+  const Clip whole = clip_from_bvh(file);
+  const MovingRows rows = moving_rows(whole);
+  BvhFile moving = file;
+  moving.values = file.values.middleRows(rows.begin, rows.end - rows.begin);
+  ReconstructedFile result =
+      FileReconstruction(std::move(model), moving, said, root, calibrate).run(settings);
+  result.first_row = rows.begin;
+  if (auto told = rest_rows_told(whole, rows))
+    result.warnings.insert(result.warnings.begin(), std::move(*told));
+  auto values = file.values;
+  values.middleRows(rows.begin, rows.end - rows.begin) = result.file.values;
+  result.file.values = std::move(values);
+  return result;
 }
 
 }  // namespace gait

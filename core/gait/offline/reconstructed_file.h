@@ -24,10 +24,12 @@ enum class FileRoot {
 struct ReconstructedFile {
   BvhFile file;
   ReconstructedClip walk;             // in metres, with the decisions per frame
+  int first_row = 0;                  // the file's row that is the walk's frame 0
   std::vector<std::string> warnings;  // of the guesses of unit and up axis
 };
 
-// Values of input joints, and of joints the model does not know, stay as they are. Output joints
+// Values of input joints, of joints the model does not know, and of rest rows (motion/rest_rows.h)
+// stay as they are. Output joints
 // rest at their offsets where they have position channels. `calibrate`: bones may rest in other
 // directions than the model's (motion/rest_calibration.h). The root is moved only when the hips
 // are among the outputs or the inputs. Throws Error naming the joints that the file lacks, whose
