@@ -1,10 +1,15 @@
 #include "clip_reader.h"
 
+#include <algorithm>
+#include <array>
 #include <cctype>
 #include <cstdio>
+#include <utility>
 
+#include "file_ending.h"
 #include "gait/error.h"
-#include "gait/motion/rest_rows.h"
+#include "gait/motion/captured/rest_rows.h"
+#include "gait/motion/captured/walk_doubts.h"
 #include "gait/names.h"
 #include "option_kinds.h"
 
@@ -53,31 +58,68 @@ void add_clip_reading(CLI::App& app, ClipReading& reading) {
             "File with lines `joint = role` for names that are not understood");
 }
 
-BvhFile read_file(const std::filesystem::path& path, const ClipReading& reading,
-                  const std::string& command) {
-  BvhFile file = read_bvh(path);
-  print_warnings(command, file.warnings);
-  if (reading.fps) file.frame_time = 1 / *reading.fps;
-  return file;
+std::string_view concern_named(Concern concern) {
+  constexpr std::array<std::string_view, 7> names{
+      "refused", "not walking", "travel", "frame rate", "unit or axes", "rest pose", "file"};
+  return names[static_cast<std::size_t>(concern)];
 }
 
-ReadClip read_clip(const std::filesystem::path& path, const ClipReading& reading,
-                   const std::string& command) {
+ReadClip read_clip(const std::filesystem::path& path, const ClipReading& reading) {
   const RoleTable table = reading.roles.empty() ? RoleTable{} : read_role_table(reading.roles);
 
   ReadClip read;
-  read.file = read_file(path, reading, command);
+  const auto doubt = [&](Concern concern, std::string text) {
+    read.doubts.push_back({concern, std::move(text)});
+  };
+  read.file = read_bvh(path);
+  if (reading.fps) read.file.frame_time = 1 / *reading.fps;
+  for (const std::string& warning : read.file.warnings) doubt(Concern::file, warning);
   const Clip whole = clip_from_bvh(read.file);
   const MovingRows rows = moving_rows(whole);
-  if (const auto told = rest_rows_told(whole, rows)) print_warnings(command, {*told});
+  if (auto told = rest_rows_told(whole, rows)) doubt(Concern::rest_rows, std::move(*told));
   read.first_row = rows.begin;
   const Clip in_file = rows_of(whole, rows);
   read.roles = find_roles(in_file.skeleton, table);
   read.frame = guess_body_frame(in_file, read.roles, said_of_frame(reading));
-  print_warnings(command, read.frame.warnings);
+  for (const std::string& warning : read.frame.warnings) doubt(Concern::unit_or_up, warning);
   read.clip = in_metres_y_up(in_file, read.frame);
   read.roles_without_joint = names_not_in(in_file.skeleton, table);
+  if (!read.roles.has_legs()) return read;
+  read.track = follow_walk(read.clip, read.roles);
+  for (const Doubt& of : walk_doubts(read.clip, read.roles, *read.track))
+    doubt(of.kind == DoubtKind::not_walking ? Concern::not_walking
+          : of.kind == DoubtKind::travel    ? Concern::travel
+                                            : Concern::frame_rate,
+          read.clip.name + ": " + of.text);
   return read;
+}
+
+void print_doubts(const std::string& command, const ReadClip& read, bool walks) {
+  for (const ClipDoubt& doubt : read.doubts)
+    if (walks || doubt.concern != Concern::not_walking) print_warnings(command, {doubt.text});
+}
+
+std::vector<std::filesystem::path> clips_below(const std::vector<std::string>& paths) {
+  namespace fs = std::filesystem;
+  std::vector<fs::path> clips;
+  for (const fs::path path : paths) {
+    if (!fs::is_directory(path)) {
+      clips.push_back(path);
+      continue;
+    }
+    std::vector<fs::path> files;
+    try {
+      for (const auto& entry : fs::recursive_directory_iterator(path))
+        if (ending_of(entry.path()) == ".bvh" && entry.is_regular_file())
+          files.push_back(entry.path());
+    } catch (const fs::filesystem_error& error) {
+      throw Error(path.string() + ": cannot be searched: " + error.code().message());
+    }
+    if (files.empty()) throw Error(path.string() + ": has no BVH files");
+    std::sort(files.begin(), files.end());
+    clips.insert(clips.end(), files.begin(), files.end());
+  }
+  return clips;
 }
 
 void warn_of_roles(const std::string& command, const ClipReading& reading,

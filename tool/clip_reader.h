@@ -6,11 +6,13 @@
 #include <filesystem>
 #include <optional>
 #include <string>
+#include <string_view>
 #include <vector>
 
 #include "gait/files/bvh.h"
 #include "gait/motion/body_frame.h"
 #include "gait/motion/clip.h"
+#include "gait/motion/contacts.h"
 #include "gait/motion/joint_roles.h"
 
 namespace gait::tool {
@@ -33,22 +35,35 @@ BodyFrameOverride said_of_frame(const ClipReading& reading);
 // To stderr, as `gait COMMAND: warning: ...`.
 void print_warnings(const std::string& command, const std::vector<std::string>& warnings);
 
-// A file as it is written, but with the frame time of --fps. Warnings go to stderr.
-BvhFile read_file(const std::filesystem::path& path, const ClipReading& reading,
-                  const std::string& command);
+// What a doubt is about, the worst first.
+enum class Concern { refused, not_walking, travel, frame_rate, unit_or_up, rest_rows, file };
+std::string_view concern_named(Concern concern);  // "frame rate"
+
+struct ClipDoubt {
+  Concern concern;
+  std::string text;  // with the file's name
+};
 
 struct ReadClip {
-  BvhFile file;       // as it is written
+  BvhFile file;       // as it is written, but for --fps
   Clip clip;          // metres, Y up, without rest rows
   int first_row = 0;  // the file's row that is the clip's frame 0
   JointRoles roles;
   BodyFrame frame;
+  std::optional<WalkTrack> track;  // where legs are known
+  std::vector<ClipDoubt> doubts;
   std::vector<std::string> roles_without_joint;  // names of --roles that this clip does not have
 };
 
-// Reads one BVH file. Warnings go to stderr as `gait COMMAND: warning: ...`. Throws Error.
-ReadClip read_clip(const std::filesystem::path& path, const ClipReading& reading,
-                   const std::string& command);
+// Reads one BVH file. Throws Error. Doubts are the caller's to tell.
+ReadClip read_clip(const std::filesystem::path& path, const ClipReading& reading);
+
+// A clip's doubts as warnings. `walks`: the command is about walking, so say what is none.
+void print_doubts(const std::string& command, const ReadClip& read, bool walks);
+
+// The files themselves, and all BVH files below those that are folders, in the order of their
+// paths. Throws Error where a folder has none.
+std::vector<std::filesystem::path> clips_below(const std::vector<std::string>& paths);
 
 // A warning where --roles names joints that no clip has: misspelt, most likely.
 void warn_of_roles(const std::string& command, const ClipReading& reading,

@@ -31,9 +31,13 @@ void reconstruct(const ReconstructOptions& options) {
   if (!options.table.empty()) table.emplace(options.table);
 
   const auto model = std::make_shared<const Model>(model_named(options.model));
-  const BvhFile file = read_file(options.clip, options.reading, "reconstruct");
+  const ReadClip read = read_clip(options.clip, options.reading);
+  // The other doubts are of what reconstruction does not look at, or finds again.
+  for (const ClipDoubt& doubt : read.doubts)
+    if (doubt.concern == Concern::file || doubt.concern == Concern::frame_rate)
+      print_warnings("reconstruct", {doubt.text});
   const ReconstructedFile result =
-      reconstruct_file(model, file, said_of_frame(options.reading), options.settings,
+      reconstruct_file(model, read.file, said_of_frame(options.reading), options.settings,
                        options.root == "feet" ? FileRoot::feet : FileRoot::file, options.calibrate);
   print_warnings("reconstruct", result.warnings);
   write_bvh(result.file, output.part());

@@ -9,7 +9,6 @@
 #include <system_error>
 
 #include "commands.h"
-#include "file_ending.h"
 #include "gait/error.h"
 #include "gait/files/label_file.h"
 #include "gait/names.h"
@@ -33,20 +32,6 @@ A label file beside a clip (same name, .txt or .lab) says when the feet touch.)"
 namespace {
 
 constexpr const char* usual_pattern = "walk_{style}_{take}.bvh";
-
-std::vector<fs::path> bvh_files_in(const fs::path& folder) {
-  std::vector<fs::path> files;
-  try {
-    for (const auto& entry : fs::recursive_directory_iterator(folder))
-      if (ending_of(entry.path()) == ".bvh" && entry.is_regular_file())
-        files.push_back(entry.path());
-  } catch (const fs::filesystem_error& error) {
-    throw Error(folder.string() + ": cannot be searched: " + error.code().message());
-  }
-  if (files.empty()) throw Error(folder.string() + ": has no BVH files");
-  std::sort(files.begin(), files.end());
-  return files;
-}
 
 // The same file by whatever path it is named.
 fs::path identity(const fs::path& path) {
@@ -103,15 +88,7 @@ class Said {
 };
 
 std::vector<fs::path> files_meant(const WalkReading& reading, const Manifest& manifest) {
-  std::vector<fs::path> named;
-  for (const std::string& path : reading.paths) {
-    if (!fs::is_directory(path)) {
-      named.emplace_back(path);
-      continue;
-    }
-    const auto found = bvh_files_in(path);
-    named.insert(named.end(), found.begin(), found.end());
-  }
+  std::vector<fs::path> named = clips_below(reading.paths);
   if (reading.paths.empty())
     for (const ManifestEntry& entry : manifest.entries) named.push_back(entry.file);
   std::set<fs::path> seen;
@@ -187,7 +164,8 @@ WalksRead read_walks(const WalkReading& reading, const std::string& command,
     progress(static_cast<double>(i) / static_cast<double>(files.size()), path.filename().string());
     WalkFile file{path, ""};
     Walk walk;
-    ReadClip in_file = read_clip(path, reading.clip, command);
+    ReadClip in_file = read_clip(path, reading.clip);
+    print_doubts(command, in_file, true);
     walk.clip = std::move(in_file.clip);
     std::erase_if(without_joint, [&](const std::string& name) {
       return std::count(in_file.roles_without_joint.begin(), in_file.roles_without_joint.end(),

@@ -7,10 +7,11 @@
 #include "gait/error.h"
 #include "gait/files/bvh.h"
 #include "gait/motion/body_frame.h"
+#include "gait/motion/captured/rest_rows.h"
+#include "gait/motion/captured/walk_doubts.h"
 #include "gait/motion/contacts.h"
 #include "gait/motion/kinematics.h"
 #include "gait/motion/resample.h"
-#include "gait/motion/rest_rows.h"
 
 namespace gait {
 
@@ -90,6 +91,7 @@ BodyMotion motion_on_body(const Clip& clip, const Model& model, std::vector<Labe
   const BodyPoses poses = poses_on_body(clip, model, matched, track.cycle_seconds);
 
   BodyMotion motion;
+  if (roles.has_legs()) motion.warnings = doubts_told(walk_doubts(clip, roles, track), clip.name);
   motion.name = clip.name;
   motion.frame_rate = clip.frame_rate;
   motion.joints = poses.joints;
@@ -145,9 +147,10 @@ BodyMotion read_motion(const std::filesystem::path& path, const Model& model) {
     const bool of_labels = !labels_name.empty() && !text.starts_with(file.name);
     throw Error((of_labels ? labels_name + ": " : "") + text);
   }
-  motion.warnings = file.warnings;
-  if (const auto told = rest_rows_told(whole, rows)) motion.warnings.push_back(*told);
-  motion.warnings.insert(motion.warnings.end(), frame.warnings.begin(), frame.warnings.end());
+  std::vector<std::string> warnings = file.warnings;
+  if (auto told = rest_rows_told(whole, rows)) warnings.push_back(std::move(*told));
+  warnings.insert(warnings.end(), frame.warnings.begin(), frame.warnings.end());
+  motion.warnings.insert(motion.warnings.begin(), warnings.begin(), warnings.end());
   return motion;
 }
 

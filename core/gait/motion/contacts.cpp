@@ -168,11 +168,16 @@ WalkTrack follow_walk(const Clip& clip, const JointRoles& roles) {
     Eigen::Vector3d moved = walk.position(frame + 1, roles.hips) - walk.position(frame, roles.hips);
     path += moved.dot(heading_direction(track.heading[frame]));
   }
-  const double root_speed = last > first ? path * clip.frame_rate / (last - first) : 0;
-  const double feet_speed = stance_speed(walk, track, clip.frame_rate);
-  track.treadmill = feet_speed > 0.2 && std::abs(root_speed) < 0.3 * feet_speed;
-  track.speed = track.treadmill ? feet_speed : std::abs(root_speed);
+  track.root_speed = last > first ? path * clip.frame_rate / (last - first) : 0;
+  track.feet_speed = stance_speed(walk, track, clip.frame_rate);
+  track.treadmill = track.feet_speed > 0.2 && std::abs(track.root_speed) < 0.3 * track.feet_speed;
+  track.speed = track.treadmill ? track.feet_speed : std::abs(track.root_speed);
   return track;
+}
+
+double natural_frequency(double speed_per_leg, double leg_length) {
+  constexpr double inman = 0.743, grown_leg = 0.83;
+  return inman * std::sqrt(speed_per_leg * std::sqrt(grown_leg / leg_length));
 }
 
 std::vector<Cycle> straight_cycles(const WalkTrack& track, double limit) {

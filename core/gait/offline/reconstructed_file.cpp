@@ -5,10 +5,10 @@
 #include "gait/error.h"
 #include "gait/model/body_pose.h"
 #include "gait/model/fitted_model.h"
+#include "gait/motion/captured/rest_rows.h"
 #include "gait/motion/contacts.h"
 #include "gait/motion/kinematics.h"
 #include "gait/motion/rest_calibration.h"
-#include "gait/motion/rest_rows.h"
 
 namespace gait {
 

@@ -28,12 +28,12 @@ struct ReconstructedFile {
   std::vector<std::string> warnings;  // of the guesses of unit and up axis
 };
 
-// Values of input joints, of joints the model does not know, and of rest rows (motion/rest_rows.h)
-// stay as they are. Output joints
-// rest at their offsets where they have position channels. `calibrate`: bones may rest in other
-// directions than the model's (motion/rest_calibration.h). The root is moved only when the hips
-// are among the outputs or the inputs. Throws Error naming the joints that the file lacks, whose
-// rest directions differ from the model's, or whose channels cannot take a rotation.
+// Values of input joints, of joints the model does not know, and of rest rows
+// (motion/captured/rest_rows.h) stay as they are. Output joints rest at their offsets where they
+// have position channels. `calibrate`: bones may rest in other directions than the model's
+// (motion/rest_calibration.h). The root is moved only when the hips are among the outputs or the
+// inputs. Throws Error naming the joints that the file lacks, whose rest directions differ from the
+// model's, or whose channels cannot take a rotation.
 ReconstructedFile reconstruct_file(std::shared_ptr<const Model> model, const BvhFile& file,
                                    const BodyFrameOverride& said, const PlaySettings& settings,
                                    FileRoot root, bool calibrate = false);

@@ -1,4 +1,4 @@
-#include "gait/motion/rest_rows.h"
+#include "gait/motion/captured/rest_rows.h"
 
 #include <algorithm>
 #include <cmath>

@@ -1,5 +1,5 @@
 // Rest poses at the ends of a clip are found by the jump, and nothing else is.
-#include "gait/motion/rest_rows.h"
+#include "gait/motion/captured/rest_rows.h"
 
 #include <gtest/gtest.h>
 
