@@ -8,6 +8,7 @@
 
 #include "file_ending.h"
 #include "gait/error.h"
+#include "gait/motion/captured/looped_clip.h"
 #include "gait/motion/captured/rest_rows.h"
 #include "gait/motion/captured/walk_doubts.h"
 #include "gait/names.h"
@@ -16,6 +17,8 @@
 namespace gait::tool {
 
 namespace {
+
+constexpr std::size_t few_steps = 4;  // with as many, a clip is no short loop
 
 std::string unit_fault(const std::string& unit) {
   try {
@@ -86,7 +89,21 @@ ReadClip read_clip(const std::filesystem::path& path, const ClipReading& reading
   read.roles_without_joint = names_not_in(in_file.skeleton, table);
   if (!read.roles.has_legs()) return read;
   read.track = follow_walk(read.clip, read.roles);
-  for (const Doubt& of : walk_doubts(read.clip, read.roles, *read.track))
+  std::vector<Doubt> doubts = walk_doubts(read.clip, read.roles, *read.track);
+  read.loop = steps_between(read.track->contacts).size() < few_steps && loops(read.clip);
+  if (read.loop) {
+    const Clip again = unrolled(read.clip, loop_passes);
+    WalkTrack round = follow_walk(again, read.roles);
+    doubts = walk_doubts(again, read.roles, round);
+    // One pass from the middle, which has passes before it and behind.
+    const int period = read.clip.frames() - 1;
+    std::erase_if(round.contacts, [&](const Contact& contact) {
+      return contact.frame < period || contact.frame >= 2 * period;
+    });
+    for (Contact& contact : round.contacts) contact.frame -= period;
+    read.track = std::move(round);
+  }
+  for (const Doubt& of : doubts)
     doubt(of.kind == DoubtKind::not_walking ? Concern::not_walking
           : of.kind == DoubtKind::travel    ? Concern::travel
                                             : Concern::frame_rate,

@@ -50,10 +50,14 @@ struct ReadClip {
   int first_row = 0;  // the file's row that is the clip's frame 0
   JointRoles roles;
   BodyFrame frame;
-  std::optional<WalkTrack> track;  // where legs are known
+  std::optional<WalkTrack> track;  // where legs are known; contacts and speed of a loop go round
+  bool loop = false;               // few steps, to be played again and again
   std::vector<ClipDoubt> doubts;
   std::vector<std::string> roles_without_joint;  // names of --roles that this clip does not have
 };
+
+// Passes through a loop that are learnt from in a row.
+inline constexpr int loop_passes = 4;
 
 // Reads one BVH file. Throws Error. Doubts are the caller's to tell.
 ReadClip read_clip(const std::filesystem::path& path, const ClipReading& reading);

@@ -30,7 +30,7 @@ struct LabelledClip {
   std::string path;
   int frames = 0;  // rows of the file, in which contacts are counted
   double frame_rate = 30;
-  bool walks = true;
+  bool walks = true, loop = false;
   WalkTrack track;
   std::vector<Step> steps;
   std::vector<ClipDoubt> doubts;
@@ -48,6 +48,7 @@ LabelledClip label_clip(const std::filesystem::path& path, const ClipReading& re
   labelled.track = std::move(*read.track);
   for (Contact& contact : labelled.track.contacts) contact.frame += read.first_row;
   labelled.steps = steps_between(labelled.track.contacts);
+  labelled.loop = read.loop;
   labelled.doubts = std::move(read.doubts);
   labelled.walks =
       std::none_of(labelled.doubts.begin(), labelled.doubts.end(),
@@ -66,7 +67,8 @@ void print_table(const LabelledClip& clip) {
                 track.cycle_seconds);
   else
     std::printf("does not look like walking, ");
-  std::printf("%zu contacts, %zu steps\n", track.contacts.size(), clip.steps.size());
+  std::printf("%s%zu contacts, %zu steps\n", clip.loop ? "a loop, " : "", track.contacts.size(),
+              clip.steps.size());
   if (track.contacts.empty()) return;
   std::printf("  %-6s %7s %9s %9s\n", "foot", "frame", "time/s", "step/s");
   std::size_t next = 0;  // the step that starts at this contact or later
@@ -99,6 +101,7 @@ nlohmann::ordered_json as_json(const LabelledClip& clip) {
           {"frames", clip.frames},
           {"frame_rate", clip.frame_rate},
           {"walking", clip.walks},
+          {"loop", clip.loop},
           {"doubts", doubts},
           {"speed", clip.track.speed},
           {"treadmill", clip.track.treadmill},

@@ -11,6 +11,7 @@
 #include "commands.h"
 #include "gait/error.h"
 #include "gait/files/label_file.h"
+#include "gait/motion/captured/looped_clip.h"
 #include "gait/names.h"
 #include "manifest.h"
 #include "name_pattern.h"
@@ -132,6 +133,19 @@ std::vector<Contact> contacts_beside(const fs::path& path, const Clip& clip, int
   return {};
 }
 
+// A loop as several passes in a row.
+void go_round(Walk& walk, std::string& remark) {
+  const int period = walk.clip.frames() - 1;
+  std::vector<Contact> contacts;
+  for (int pass = 0; pass < loop_passes; ++pass)
+    for (const Contact& contact : walk.contacts)
+      if (contacts.empty() || contacts.back().foot != contact.foot)
+        contacts.push_back({contact.frame + pass * period, contact.foot});
+  walk.contacts = std::move(contacts);
+  walk.clip = unrolled(walk.clip, loop_passes);
+  append_name(remark, "a loop, gone round " + std::to_string(loop_passes) + " times");
+}
+
 }  // namespace
 
 void add_walk_reading(CLI::App& app, WalkReading& reading) {
@@ -177,6 +191,7 @@ WalksRead read_walks(const WalkReading& reading, const std::string& command,
     walk.speed = fields.speed;
     if (!reading.no_labels)
       walk.contacts = contacts_beside(path, walk.clip, in_file.first_row, file.remark);
+    if (in_file.loop) go_round(walk, file.remark);
     read.walks.push_back(std::move(walk));
     read.files.push_back(std::move(file));
   }

@@ -111,7 +111,9 @@ double median_cycle(const std::vector<Contact>& contacts, double frame_rate) {
   std::vector<int> lengths;
   for (std::size_t i = 0; i + 2 < contacts.size(); ++i)
     lengths.push_back(contacts[i + 2].frame - contacts[i].frame);
-  if (lengths.empty()) return first_guess_of_cycle;
+  if (lengths.empty())
+    return contacts.size() < 2 ? first_guess_of_cycle
+                               : 2 * (contacts[1].frame - contacts[0].frame) / frame_rate;
   std::nth_element(lengths.begin(), lengths.begin() + lengths.size() / 2, lengths.end());
   return lengths[lengths.size() / 2] / frame_rate;
 }
@@ -180,13 +182,15 @@ double natural_frequency(double speed_per_leg, double leg_length) {
   return inman * std::sqrt(speed_per_leg * std::sqrt(grown_leg / leg_length));
 }
 
+bool is_straight(const WalkTrack& track, const Cycle& cycle, double limit) {
+  const auto [low, high] =
+      std::minmax_element(track.heading.begin() + cycle.begin, track.heading.begin() + cycle.end);
+  return *high - *low < limit;
+}
+
 std::vector<Cycle> straight_cycles(const WalkTrack& track, double limit) {
-  std::vector<Cycle> straight;
-  for (const Cycle& cycle : cycles_between(track.contacts)) {
-    const auto [low, high] =
-        std::minmax_element(track.heading.begin() + cycle.begin, track.heading.begin() + cycle.end);
-    if (*high - *low < limit) straight.push_back(cycle);
-  }
+  std::vector<Cycle> straight = cycles_between(track.contacts);
+  std::erase_if(straight, [&](const Cycle& cycle) { return !is_straight(track, cycle, limit); });
   return straight;
 }
 

@@ -34,7 +34,9 @@ WalkTrack follow_walk(const Clip& clip, const JointRoles& roles);
 // times (0.83 m / leg)^(1/4). 142 captured walks lie between 0.85 and 1.39 of it.
 double natural_frequency(double speed_per_leg, double leg_length);
 
-// Cycles during which the heading changes by less than `limit` radians (T10 §3).
+// Whether the heading changes by less than `limit` radians during a cycle, and the cycles in which
+// it does (T10 §3).
+bool is_straight(const WalkTrack& track, const Cycle& cycle, double limit = 0.17453);
 std::vector<Cycle> straight_cycles(const WalkTrack& track, double limit = 0.17453);
 
 }  // namespace gait
