@@ -81,7 +81,8 @@ std::vector<Contact> contacts_along(const Walk& walk, const std::vector<double>&
   if (widest < least_stride_per_leg * leg_length) return {};
   const double threshold = 0.15 * widest;
 
-  std::vector<Contact> contacts;
+  // By the furthest moments of all leads, whatever their length.
+  std::vector<Contact> leads;
   int begin = 0, lead = 0;  // lead: +1 right foot ahead, -1 left, 0 not known yet
   const auto close = [&](int end) {
     if (lead == 0) return;
@@ -90,11 +91,7 @@ std::vector<Contact> contacts_along(const Walk& walk, const std::vector<double>&
     for (int frame = begin; frame < end; ++frame)
       if (walk.ahead(frame, foot, heading) > walk.ahead(best, foot, heading)) best = frame;
     // A maximum at the clip's edge is where the capture began or stopped, not a contact.
-    if (best == 0 || best == frames - 1) return;
-    if (!contacts.empty() && (best - contacts.back().frame) < shortest_step_seconds * frame_rate)
-      return;
-    if (!contacts.empty() && contacts.back().foot == foot) return;
-    contacts.push_back({best, foot});
+    if (best != 0 && best != frames - 1) leads.push_back({best, foot});
   };
   for (int frame = 0; frame < frames; ++frame) {
     const int now = right_lead[frame] > threshold ? 1 : right_lead[frame] < -threshold ? -1 : 0;
@@ -104,6 +101,22 @@ std::vector<Contact> contacts_along(const Walk& walk, const std::vector<double>&
     lead = now;
   }
   close(frames);
+
+  // Where most leads are so short, it is the clock that is fast, not the walker who stumbles.
+  std::vector<int> apart;
+  for (std::size_t i = 0; i + 1 < leads.size(); ++i)
+    apart.push_back(leads[i + 1].frame - leads[i].frame);
+  const auto middle = apart.begin() + static_cast<std::ptrdiff_t>(apart.size() / 2);
+  double shortest = shortest_step_seconds * frame_rate;
+  if (!apart.empty()) {
+    std::nth_element(apart.begin(), middle, apart.end());
+    if (*middle < shortest) shortest = *middle / 2.0;
+  }
+  std::vector<Contact> contacts;
+  for (const Contact& contact : leads)
+    if (contacts.empty() ||
+        (contact.frame - contacts.back().frame >= shortest && contact.foot != contacts.back().foot))
+      contacts.push_back(contact);
   return contacts;
 }
 

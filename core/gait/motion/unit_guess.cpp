@@ -23,6 +23,7 @@ struct Unit {
 
 // The usual ones first. MakeHuman writes decimetres; CMU's own files are in units of 1/0.45 inch.
 constexpr std::size_t usual_units = 4;
+constexpr double usual_share = 0.06;
 constexpr std::array<Unit, 7> units{{{"m", 1, 0.2},
                                      {"cm", 0.01, 0.5},
                                      {"mm", 0.001, 0.07},
@@ -47,9 +48,10 @@ constexpr double tempo_spread = 0.2;
 // legs have no names.
 constexpr double height_over_leg = 2.04;
 
-// In nats: a unit that is this much less likely is out of the question; a best one below the other
-// fits nobody.
-constexpr double no_rival = 3, fits_nobody = -5.3;
+// In nats: a unit that is this much less likely is out of the question.
+constexpr double no_rival = 3;
+// Legs that some person has; in units that few files are in, that a grown one has.
+constexpr double longest_leg = 1.15, least_grown_leg = 0.6;
 
 double normal(double z, double spread) {
   return std::exp(-z * z / (2 * spread * spread)) / (spread * std::sqrt(2 * std::numbers::pi));
@@ -68,8 +70,8 @@ double density_of_leg(double metres, const Unit& unit) {
 
 struct Candidate {
   const Unit* unit;
-  double metres;        // of the leg
-  double prior, score;  // logarithms, without and with the tempo's likelihood
+  double metres;  // of the leg
+  double score;   // log of prior and likelihood
 };
 
 // Best first.
@@ -77,15 +79,14 @@ std::vector<Candidate> candidates_for(double leg, const std::optional<WalkTempo>
   std::vector<Candidate> candidates;
   for (const Unit& unit : units) {
     const double metres = leg * unit.metres;
-    const double prior = std::log(unit.share) + std::log(density_of_leg(metres, unit) + 1e-300);
-    double score = prior;
+    double score = std::log(unit.share) + std::log(density_of_leg(metres, unit) + 1e-300);
     if (tempo) {
       const double z =
           std::log(tempo->frequency / natural_frequency(tempo->speed_per_leg, metres)) /
           tempo_spread;
       score -= std::min(z * z / 2, 8.0);
     }
-    candidates.push_back({&unit, metres, prior, score});
+    candidates.push_back({&unit, metres, score});
   }
   std::stable_sort(candidates.begin(), candidates.end(),
                    [](const Candidate& a, const Candidate& b) { return a.score > b.score; });
@@ -131,7 +132,8 @@ UnitGuess unit_of_leg(double leg, const std::optional<WalkTempo>& tempo) {
                   " or " + told(candidates[1]) + taken + " (say --unit " +
                   std::string(best.unit->name) + " or --unit " +
                   std::string(candidates[1].unit->name) + ")";
-  else if (best.prior < fits_nobody)
+  else if (best.metres > longest_leg ||
+           best.metres < (best.unit->share < usual_share ? least_grown_leg : least_leg))
     guess.doubt = "the unit is doubtful, as a leg of " + told(leg) + " units fits none well" +
                   taken + ", " + told(best.metres) +
                   " m of leg (say --unit m, cm, mm, in, ft or metres per unit)";
