@@ -62,8 +62,9 @@ void add_clip_reading(CLI::App& app, ClipReading& reading) {
 }
 
 std::string_view concern_named(Concern concern) {
-  constexpr std::array<std::string_view, 7> names{
-      "refused", "not walking", "travel", "frame rate", "unit or axes", "rest pose", "file"};
+  constexpr std::array<std::string_view, 9> names{"refused", "names",      "not walking",
+                                                  "travel",  "frame rate", "unit or axes",
+                                                  "bones",   "rest pose",  "file"};
   return names[static_cast<std::size_t>(concern)];
 }
 
@@ -81,8 +82,15 @@ ReadClip read_clip(const std::filesystem::path& path, const ClipReading& reading
   const MovingRows rows = moving_rows(whole);
   if (auto told = rest_rows_told(whole, rows)) doubt(Concern::rest_rows, std::move(*told));
   read.first_row = rows.begin;
-  const Clip in_file = rows_of(whole, rows);
-  read.roles = find_roles(in_file.skeleton, table);
+  const BodyForm form = body_form(rows_of(whole, rows), table);
+  const Clip& in_file = form.clip;
+  read.roles = find_roles(in_file, table);
+  read.re_rooted = form.re_rooted;
+  for (const std::string& warning : form.warnings) doubt(Concern::bones, warning);
+  // What is not understood comes before what follows from it.
+  if (const std::string missing = missing_roles(read.roles); !missing.empty())
+    doubt(Concern::names, path.string() + ": no joint is understood as " + missing +
+                              "; 'gait roles' shows what is, and -o writes a file for --roles");
   read.frame = guess_body_frame(in_file, read.roles, said_of_frame(reading));
   for (const std::string& warning : read.frame.warnings) doubt(Concern::unit_or_up, warning);
   read.clip = in_metres_y_up(in_file, read.frame);

@@ -10,6 +10,7 @@
 #include <vector>
 
 #include "gait/files/bvh.h"
+#include "gait/motion/body_form.h"
 #include "gait/motion/body_frame.h"
 #include "gait/motion/clip.h"
 #include "gait/motion/contacts.h"
@@ -36,7 +37,17 @@ BodyFrameOverride said_of_frame(const ClipReading& reading);
 void print_warnings(const std::string& command, const std::vector<std::string>& warnings);
 
 // What a doubt is about, the worst first.
-enum class Concern { refused, not_walking, travel, frame_rate, unit_or_up, rest_rows, file };
+enum class Concern {
+  refused,
+  names,
+  not_walking,
+  travel,
+  frame_rate,
+  unit_or_up,
+  bones,
+  rest_rows,
+  file
+};
 std::string_view concern_named(Concern concern);  // "frame rate"
 
 struct ClipDoubt {
@@ -46,9 +57,10 @@ struct ClipDoubt {
 
 struct ReadClip {
   BvhFile file;       // as it is written, but for --fps
-  Clip clip;          // metres, Y up, without rest rows
+  Clip clip;          // metres, Y up, in body form (motion/body_form.h), without rest rows
   int first_row = 0;  // the file's row that is the clip's frame 0
   JointRoles roles;
+  bool re_rooted = false;  // the file's root was not the hips
   BodyFrame frame;
   std::optional<WalkTrack> track;  // where legs are known; contacts and speed of a loop go round
   bool loop = false;               // few steps, to be played again and again

@@ -6,6 +6,7 @@
 
 #include "gait/error.h"
 #include "gait/files/bvh.h"
+#include "gait/motion/body_form.h"
 #include "gait/motion/body_frame.h"
 #include "gait/motion/captured/rest_rows.h"
 #include "gait/motion/captured/walk_doubts.h"
@@ -120,9 +121,10 @@ BodyMotion read_motion(const std::filesystem::path& path, const Model& model) {
   const BvhFile file = read_bvh(path);
   const Clip whole = clip_from_bvh(file);
   const MovingRows rows = moving_rows(whole);
-  const Clip in_file = rows_of(whole, rows);
-  if (in_file.frames() == 0) throw Error(file.name + ": expected frames to play, found none");
   const Body& body = required_body(model);
+  const BodyForm form = body_form(rows_of(whole, rows), hips_and_legs_of(body));
+  const Clip& in_file = form.clip;
+  if (in_file.frames() == 0) throw Error(file.name + ": expected frames to play, found none");
   const JointRoles roles =
       matched_roles(body, match_joints(body, in_file.skeleton, file.name, needed_joints(body)),
                     in_file.skeleton.size());
@@ -149,6 +151,7 @@ BodyMotion read_motion(const std::filesystem::path& path, const Model& model) {
   }
   std::vector<std::string> warnings = file.warnings;
   if (auto told = rest_rows_told(whole, rows)) warnings.push_back(std::move(*told));
+  warnings.insert(warnings.end(), form.warnings.begin(), form.warnings.end());
   warnings.insert(warnings.end(), frame.warnings.begin(), frame.warnings.end());
   motion.warnings.insert(motion.warnings.begin(), warnings.begin(), warnings.end());
   return motion;
