@@ -48,6 +48,10 @@ class Seen {
  public:
   Seen(const Clip& clip, Eigen::Quaterniond to_y_up, double metres)
       : skeleton_(clip.skeleton), world_(world_poses(clip)), to_y_up_(to_y_up), metres_(metres) {}
+  Eigen::Quaterniond turn(int frame, const std::string& name) const {
+    const auto joint = static_cast<std::size_t>(skeleton_.find(name));
+    return world_.rotations[static_cast<std::size_t>(frame) * skeleton_.joints.size() + joint];
+  }
   Eigen::Vector3d at(int frame, const std::string& name) const {
     const int joint = skeleton_.find(name);
     if (joint < 0) return Eigen::Vector3d::Constant(NAN);
@@ -143,8 +147,18 @@ class Trial {
         .positions[static_cast<std::size_t>(frame) * source_.clip.skeleton.joints.size() +
                    roles_.joint(role)];
   }
+  // A forearm without a hand ends in its tip.
+  Eigen::Vector3d true_end(int frame, const Limb& limb) const {
+    if (roles_.joint(limb.to) >= 0) return true_place(frame, limb.to);
+    const int joint = roles_.joint(limb.from);
+    return true_place(frame, limb.from) +
+           truth_.world.rotations[static_cast<std::size_t>(frame) *
+                                      source_.clip.skeleton.joints.size() +
+                                  joint] *
+               source_.clip.skeleton.joints[joint].tips.front();
+  }
   Eigen::Vector3d true_limb(int frame, const Limb& limb) const {
-    return in_body(true_place(frame, limb.from), true_place(frame, limb.to),
+    return in_body(true_place(frame, limb.from), true_end(frame, limb),
                    true_place(frame, Role::left_thigh), true_place(frame, Role::right_thigh));
   }
   double true_speed() const { return truth_.speed * mutation_.leg_factor * mutation_.frame_factor; }
@@ -262,10 +276,17 @@ class Trial {
     for (const Limb& limb : limbs) {
       double farthest = 0;
       for (int frame = 0; frame < clip.frames(); ++frame) {
+        const Eigen::Vector3d begin = heard.at(frame, limb.bone);
+        // Without a hand the forearm's turn from the T-pose says where it points.
+        const bool is_forearm = limb.from == Role::left_forearm || limb.from == Role::right_forearm;
+        const double side = limb.from == Role::left_forearm ? 1 : -1;
+        const Eigen::Vector3d end =
+            is_forearm && roles_.joint(limb.to) < 0
+                ? begin + heard.turn(frame, limb.bone) * Eigen::Vector3d(side, 0, 0)
+                : heard.at(frame, limb.end);
         const double off = degrees_between(
             true_limb(frame, limb),
-            in_body(heard.at(frame, limb.bone), heard.at(frame, limb.end),
-                    heard.at(frame, "LeftUpperLeg"), heard.at(frame, "RightUpperLeg")));
+            in_body(begin, end, heard.at(frame, "LeftUpperLeg"), heard.at(frame, "RightUpperLeg")));
         farthest = off <= farthest ? farthest : off;  // NaN: not sent
       }
       EXPECT_LT(farthest, 1) << limb.bone;
