@@ -13,6 +13,7 @@ namespace {
 // In shares of the 95th percentile of the motion's own changes.
 constexpr double least_jump = 2.5;       // no limb of a walker sets off so suddenly
 constexpr double least_jump_bare = 1.2;  // where all rotations before it are nought
+constexpr double least_change = 0.4;     // radians over all joints; a walk's first frame may settle
 constexpr double most_held = 0.25;       // a held pose may tremble
 constexpr int fewest_moving = 8;         // frames behind the jump, to compare it with
 constexpr double bare = 2e-4;            // radians; rounding, in a row of noughts
@@ -72,7 +73,7 @@ int held_frames(const Clip& clip, const std::vector<double>& changes, int edge) 
       std::find_if(changes.begin(), changes.end(), [&](double change) { return change > held; });
   if (changes.end() - jump <= fewest_moving) return 0;
   const double least = is_bare(clip, edge) ? least_jump_bare : least_jump;
-  if (*jump < least * usual_change({jump + 1, changes.end()})) return 0;
+  if (*jump < least_change || *jump < least * usual_change({jump + 1, changes.end()})) return 0;
   return static_cast<int>(jump - changes.begin()) + 1;
 }
 
