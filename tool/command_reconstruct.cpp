@@ -32,14 +32,17 @@ void reconstruct(const ReconstructOptions& options) {
   if (!options.table.empty()) table.emplace(path_from_utf8(options.table));
 
   const auto model = std::make_shared<const Model>(model_named(options.model));
-  const BvhFile file = read_bvh(path_from_utf8(options.clip));
-  print_warnings("reconstruct", file.warnings);
+  const ReadClip read = read_clip(path_from_utf8(options.clip), options.reading);
+  // The other doubts are of what reconstruction does not look at, or finds again.
+  for (const ClipDoubt& doubt : read.doubts)
+    if (doubt.concern == Concern::file || doubt.concern == Concern::frame_rate)
+      print_warnings("reconstruct", {doubt.text});
   const ReconstructedFile result =
-      reconstruct_file(model, file, said_of_frame(options.reading), options.settings,
+      reconstruct_file(model, read.file, said_of_frame(options.reading), options.settings,
                        options.root == "feet" ? FileRoot::feet : FileRoot::file, options.calibrate);
   print_warnings("reconstruct", result.warnings);
   write_bvh(result.file, output.part());
-  if (table) write_decisions(result.walk, *model, table->part());
+  if (table) write_decisions(result.walk, *model, table->part(), result.first_row);
   output.keep();
   if (table) table->keep();
 }
@@ -49,9 +52,10 @@ void add_options(CLI::App& app, ReconstructOptions& options) {
   add_argument(app, "CLIP", options.clip, "BVH file");
   add_output(app, "BVH", options.output,
              "BVH file to write: same skeleton, rate and frames, input joints untouched");
-  add_choice(app, "--root", {"feet", "keep"}, options.root,
-             "Where the hips go: feet (as the found feet carry them, from the origin ahead) or "
-             "keep (place and heading of the clip)");
+  add_choice(
+      app, "--root", {"feet", "keep"}, options.root,
+      "Where the hips go: feet (as the found feet carry them, from the origin ahead; below a "
+      "measured head or chest, along its heading) or keep (place and heading of the clip)");
   add_value(app, "--csv", "FILE", options.table,
             "Table to write, a row per frame: time, step, state, log-likelihood, phase, cadence, "
             "style posteriors");
@@ -59,7 +63,7 @@ void add_options(CLI::App& app, ReconstructOptions& options) {
   app.add_flag("--calibrate", options.calibrate,
                "Accept bones that rest in other directions than the model's: turn their joints' "
                "frames to match, and back again");
-  add_unit_and_up(app, options.reading);
+  add_unit_up_and_rate(app, options.reading);
   app.footer(
       R"(Only the model's input joints are looked at. Delays that --lag or --future ask for are taken
 out again: frame t of what is written belongs to frame t of the clip.

@@ -49,7 +49,8 @@ std::string view_fault(const std::string& view) {
 }
 
 WalkView view_clip(const std::string& path, const RenderOptions& options) {
-  const ReadClip read = read_clip(path_from_utf8(path), options.reading, "render");
+  const ReadClip read = read_clip(path_from_utf8(path), options.reading);
+  print_doubts("render", read, false);
   warn_of_roles("render", options.reading, read.roles_without_joint);
   if (read.clip.frames() == 0) throw Error(path + ": has no frames, nothing to draw");
   WalkView view = view_walk(read.clip, read.roles, camera_degrees(options.view));

@@ -99,7 +99,8 @@ class FrameTeller {
 void stream(const StreamOptions& options) {
   const Interrupt interrupt;
   const osc::Destination to = parse_destination(options.to);
-  const ReadClip read = read_clip(path_from_utf8(options.input), options.reading, "stream");
+  const ReadClip read = read_clip(path_from_utf8(options.input), options.reading);
+  print_doubts("stream", read, false);
   if (read.clip.frames() == 0) throw Error(options.input + ": expected frames, found none");
   const Clip clip = options.rate ? resampled(read.clip, *options.rate) : read.clip;
   FrameTeller teller(clip, read.roles, *osc::form_named(options.form));

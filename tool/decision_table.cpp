@@ -23,7 +23,7 @@ std::string csv_field(const std::string& text) {
 }  // namespace
 
 void write_decisions(const ReconstructedClip& walk, const Model& model,
-                     const std::filesystem::path& path) {
+                     const std::filesystem::path& path, int first_row) {
   std::ostringstream file;
   file << "time,step,state,log_likelihood,phase,cadence";
   for (const std::string& style : model.styles) file << ',' << csv_field("style " + style);
@@ -35,7 +35,8 @@ void write_decisions(const ReconstructedClip& walk, const Model& model,
                   static_cast<double>(decision.log_likelihood), static_cast<double>(decision.phase),
                   static_cast<double>(decision.cadence));
     char time[32];
-    std::snprintf(time, sizeof time, "%.6f", static_cast<double>(frame) / walk.clip.frame_rate);
+    std::snprintf(time, sizeof time, "%.6f",
+                  static_cast<double>(first_row + static_cast<int>(frame)) / walk.clip.frame_rate);
     file << time << ',' << csv_field(model.labels[decision.label].name) << row;
     for (Eigen::Index style = 0; style < walk.style_posteriors.rows(); ++style) {
       std::snprintf(

@@ -9,9 +9,9 @@
 #include <system_error>
 
 #include "commands.h"
-#include "file_ending.h"
 #include "gait/error.h"
 #include "gait/files/label_file.h"
+#include "gait/motion/captured/looped_clip.h"
 #include "gait/names.h"
 #include "gait/platform/path_text.h"
 #include "manifest.h"
@@ -34,20 +34,6 @@ A label file beside a clip (same name, .txt or .lab) says when the feet touch.)"
 namespace {
 
 constexpr const char* usual_pattern = "walk_{style}_{take}.bvh";
-
-std::vector<fs::path> bvh_files_in(const fs::path& folder) {
-  std::vector<fs::path> files;
-  try {
-    for (const auto& entry : fs::recursive_directory_iterator(folder))
-      if (ending_of(entry.path()) == ".bvh" && entry.is_regular_file())
-        files.push_back(entry.path());
-  } catch (const fs::filesystem_error& error) {
-    throw Error(utf8_of(folder) + ": cannot be searched: " + error.code().message());
-  }
-  if (files.empty()) throw Error(utf8_of(folder) + ": has no BVH files");
-  std::sort(files.begin(), files.end());
-  return files;
-}
 
 // The same file by whatever path it is named.
 fs::path identity(const fs::path& path) {
@@ -104,16 +90,7 @@ class Said {
 };
 
 std::vector<fs::path> files_meant(const WalkReading& reading, const Manifest& manifest) {
-  std::vector<fs::path> named;
-  for (const std::string& name : reading.paths) {
-    const fs::path path = path_from_utf8(name);
-    if (!fs::is_directory(path)) {
-      named.push_back(path);
-      continue;
-    }
-    const auto found = bvh_files_in(path);
-    named.insert(named.end(), found.begin(), found.end());
-  }
+  std::vector<fs::path> named = clips_below(reading.paths);
   if (reading.paths.empty())
     for (const ManifestEntry& entry : manifest.entries) named.push_back(entry.file);
   std::set<fs::path> seen;
@@ -122,13 +99,15 @@ std::vector<fs::path> files_meant(const WalkReading& reading, const Manifest& ma
 }
 
 // Contacts from a label file beside the clip, if there is one.
-std::vector<Contact> contacts_beside(const fs::path& path, const Clip& clip, std::string& remark) {
+std::vector<Contact> contacts_beside(const fs::path& path, const Clip& clip, int first_row,
+                                     std::string& remark) {
   for (const char* ending : {".txt", ".lab"}) {
     const fs::path labels = fs::path(path).replace_extension(ending);
     if (!fs::is_regular_file(labels)) continue;
     std::vector<Contact> contacts;
     try {
-      contacts = contacts_from_labels(read_labels(labels).segments, clip.frame_rate);
+      contacts = contacts_from_labels(
+          labels_from(read_labels(labels).segments, first_row / clip.frame_rate), clip.frame_rate);
     } catch (const Error& error) {
       const std::string text = error.what();
       throw Error((text.starts_with(utf8_of(labels)) ? "" : utf8_of(labels) + ": ") + text +
@@ -153,6 +132,19 @@ std::vector<Contact> contacts_beside(const fs::path& path, const Clip& clip, std
     return contacts;
   }
   return {};
+}
+
+// A loop as several passes in a row.
+void go_round(Walk& walk, std::string& remark) {
+  const int period = walk.clip.frames() - 1;
+  std::vector<Contact> contacts;
+  for (int pass = 0; pass < loop_passes; ++pass)
+    for (const Contact& contact : walk.contacts)
+      if (contacts.empty() || contacts.back().foot != contact.foot)
+        contacts.push_back({contact.frame + pass * period, contact.foot});
+  walk.contacts = std::move(contacts);
+  walk.clip = unrolled(walk.clip, loop_passes);
+  append_name(remark, "a loop, gone round " + std::to_string(loop_passes) + " times");
 }
 
 }  // namespace
@@ -187,7 +179,8 @@ WalksRead read_walks(const WalkReading& reading, const std::string& command,
     progress(static_cast<double>(i) / static_cast<double>(files.size()), utf8_of(path.filename()));
     WalkFile file{path, ""};
     Walk walk;
-    ReadClip in_file = read_clip(path, reading.clip, command);
+    ReadClip in_file = read_clip(path, reading.clip);
+    print_doubts(command, in_file, true);
     walk.clip = std::move(in_file.clip);
     std::erase_if(without_joint, [&](const std::string& name) {
       return std::count(in_file.roles_without_joint.begin(), in_file.roles_without_joint.end(),
@@ -197,7 +190,9 @@ WalksRead read_walks(const WalkReading& reading, const std::string& command,
     walk.style = fields.style;
     walk.subject = fields.subject;
     walk.speed = fields.speed;
-    if (!reading.no_labels) walk.contacts = contacts_beside(path, walk.clip, file.remark);
+    if (!reading.no_labels)
+      walk.contacts = contacts_beside(path, walk.clip, in_file.first_row, file.remark);
+    if (in_file.loop) go_round(walk, file.remark);
     read.walks.push_back(std::move(walk));
     read.files.push_back(std::move(file));
   }

@@ -126,6 +126,27 @@ TEST(Bvh, a_file_may_hold_several_roots) {
   EXPECT_EQ(again.skeleton.joints[3].offset, Eigen::Vector3d(1, 2, 3));
 }
 
+// Wherever a recording broke off behind its first row: the rows before are used, and said.
+TEST(Bvh, a_recording_that_broke_off_is_used_up_to_its_last_whole_row) {
+  const std::string small(small_bvh);
+  const BvhFile whole = parse_bvh(small, "small.bvh");
+  const std::size_t second = small.find("1.5 91"), third = small.find("2 92 2.5");
+  for (std::size_t end = second; end + 1 < small.size(); ++end) {
+    const BvhFile file = parse_bvh(small.substr(0, end), "small.bvh");
+    const int rows = end < third ? 1 : 2;
+    ASSERT_EQ(file.values.rows(), rows) << small.substr(second, end - second);
+    EXPECT_EQ(file.values, whole.values.topRows(rows));
+    ASSERT_EQ(file.warnings.size(), 1u);
+    EXPECT_NE(file.warnings[0].find("expected 3 rows"), std::string::npos) << file.warnings[0];
+    EXPECT_NE(file.warnings[0].find("found " + std::to_string(rows)), std::string::npos);
+  }
+  // An editor ended the line, or the header knew of the cut.
+  EXPECT_EQ(parse_bvh(small.substr(0, small.size() - 10) + "\n\n", "small.bvh").values.rows(), 2);
+  EXPECT_EQ(parse_bvh(replaced(small, "Frames: 3", "Frames: 4"), "small.bvh").values.rows(), 3);
+  // A short row with whole ones behind it is damage, not an end.
+  EXPECT_THROW(parse_bvh(replaced(small, "2.25 11", "2.25"), "small.bvh"), Error);
+}
+
 TEST(Bvh, more_rows_than_announced_are_used_with_a_warning) {
   const BvhFile file = parse_bvh(replaced(small_bvh, "Frames: 3", "Frames: 2"), "small.bvh");
   EXPECT_EQ(file.values.rows(), 3);

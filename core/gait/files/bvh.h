@@ -40,11 +40,11 @@ struct BvhFile {
   std::vector<std::string> warnings;  // odd but usable content, each with file and line
 };
 
-// Reads a BVH file. Throws Error with file, line and what was expected: not a BVH, truncated, fewer
-// rows than `Frames:` says, a wrong number of values in a row, NaN or Inf, unknown channels, absurd
-// counts (above 10000 joints, 32 channels a joint, numbers of 1e9, 1 GiB), nesting deeper than 200.
-// More rows than announced are a warning, and all are used. Names of joints may hold spaces and
-// occur twice; there may be several roots.
+// Reads a BVH file. Throws Error with file, line and what was expected: not a BVH, no whole row, a
+// wrong number of values in a row, NaN or Inf, unknown channels, absurd counts (above 10000 joints,
+// 32 channels a joint, numbers of 1e9, 1 GiB), nesting deeper than 200. More or fewer rows than
+// announced are a warning, and all are used; so is a last row that breaks off, which is left out.
+// Names of joints may hold spaces and occur twice; there may be several roots.
 BvhFile read_bvh(const std::filesystem::path& path);
 BvhFile parse_bvh(std::string_view text, std::string name);
 

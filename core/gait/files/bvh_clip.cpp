@@ -6,12 +6,17 @@
 namespace gait {
 namespace {
 
-// Rotation by `degrees` about the X, Y or Z axis (0, 1, 2).
-Eigen::Quaterniond about_axis(int axis, double degrees) {
+// rotation * (rotation by `degrees` about axis I); J and K are the axes after it.
+template <int I>
+void turn_about(Eigen::Quaterniond& rotation, double degrees) {
+  constexpr int J = (I + 1) % 3, K = (I + 2) % 3, W = 3;
   const double half = degrees * std::numbers::pi / 360;
-  Eigen::Quaterniond rotation(std::cos(half), 0, 0, 0);
-  rotation.coeffs()[axis] = std::sin(half);
-  return rotation;
+  const double c = std::cos(half), s = std::sin(half);
+  const Eigen::Vector4d q = rotation.coeffs();
+  rotation.coeffs()[W] = q[W] * c - q[I] * s;
+  rotation.coeffs()[I] = q[W] * s + q[I] * c;
+  rotation.coeffs()[J] = q[J] * c + q[K] * s;
+  rotation.coeffs()[K] = q[K] * c - q[J] * s;
 }
 
 // Files round the frame time (0.0333333 s): within 1e-4 of a whole number of frames a second, that
@@ -48,8 +53,12 @@ Clip clip_from_bvh(const BvhFile& file) {
         const int axis = static_cast<int>(channel) % 3;
         if (channel <= Channel::z_position)
           translations[joint][axis] = value;
+        else if (axis == 0)
+          turn_about<0>(rotation, value);
+        else if (axis == 1)
+          turn_about<1>(rotation, value);
         else
-          rotation = rotation * about_axis(axis, value);
+          turn_about<2>(rotation, value);
       }
       rotations[joint] = rotation.normalized();
     }

@@ -56,12 +56,7 @@ BvhCursor::BvhCursor(std::string_view text, std::string_view name) : text_(text)
 }
 
 bool BvhCursor::skip_space() {
-  while (position_ < text_.size() && is_space(text_[position_])) {
-    // CR LF, LF and CR alone each end one line.
-    const char c = text_[position_++];
-    if (c == '\n' || (c == '\r' && (position_ == text_.size() || text_[position_] != '\n')))
-      ++line_;
-  }
+  while (position_ < text_.size() && is_space(text_[position_])) ++position_;
   return position_ < text_.size();
 }
 
@@ -71,10 +66,12 @@ bool BvhCursor::skip_blanks() {
 }
 
 std::string_view BvhCursor::peek() {
+  if (position_ < peeked_) return text_.substr(position_, peeked_ - position_);
   if (!skip_space()) return {};
   std::size_t end = position_;
   if (is_brace(text_[end])) return text_.substr(end, 1);
   while (end < text_.size() && !is_space(text_[end]) && !is_brace(text_[end])) ++end;
+  peeked_ = end;
   return text_.substr(position_, end - position_);
 }
 
@@ -122,17 +119,43 @@ std::string_view BvhCursor::rest_of_line() {
 
 double BvhCursor::number(std::string_view what) {
   skip_space();
-  const char* begin = text_.data() + position_;
+  double value = 0;
+  if (numbers_in_line({&value, 1}) == 1) return value;
+  const std::string_view next = peek();
+  const bool plus = next.size() > 1 && next[0] == '+' && next[1] != '-';
+  const std::string_view digits = next.substr(plus ? 1 : 0);
+  if (digits.empty() || leading_number(digits).length != digits.size())
+    fail("expected a number (" + std::string(what) + "), found " + found(next));
+  fail("expected a finite number below 1e9 (" + std::string(what) + "), found " + found(next));
+}
+
+// Nearly all of a file is read here.
+std::size_t BvhCursor::numbers_in_line(std::span<double> values) noexcept {
+  const char* at = text_.data() + position_;
   const char* const end = text_.data() + text_.size();
-  if (begin != end && *begin == '+' && begin + 1 != end && begin[1] != '-') ++begin;
-  const auto [value, length] = leading_number({begin, end});
-  const char* const stop = begin + length;
-  if (length == 0 || (stop != end && !is_space(*stop) && !is_brace(*stop)))
-    fail("expected a number (" + std::string(what) + "), found " + found(peek()));
-  if (!(std::abs(value) <= largest_number))
-    fail("expected a finite number below 1e9 (" + std::string(what) + "), found " + found(peek()));
-  position_ = static_cast<std::size_t>(stop - text_.data());
-  return value;
+  std::size_t count = 0;
+  for (; count < values.size(); ++count) {
+    while (at != end && is_blank(*at)) ++at;
+    const char* begin = at;
+    if (end - begin > 1 && *begin == '+' && begin[1] != '-') ++begin;
+    const auto [value, length] = leading_number({begin, end});
+    const char* const stop = begin + length;
+    if (length == 0 || !(std::abs(value) <= largest_number) ||
+        (stop != end && !is_space(*stop) && !is_brace(*stop)))
+      break;
+    values[count] = value;
+    at = stop;
+  }
+  position_ = static_cast<std::size_t>(at - text_.data());
+  return count;
+}
+
+bool BvhCursor::breaks_off() const {
+  const std::string_view left = text_.substr(position_);
+  const std::size_t word = left.find_first_not_of(" \t\f\v\r\n");
+  return word == std::string_view::npos ||
+         (left.size() - word < 32 &&
+          left.find_first_not_of("+-.0123456789eE", word) == std::string_view::npos);
 }
 
 long long BvhCursor::count(std::string_view what, long long least, long long most) {
@@ -146,7 +169,12 @@ long long BvhCursor::count(std::string_view what, long long least, long long mos
 }
 
 std::string BvhCursor::here(std::string_view message) const {
-  return std::string(name_) + ":" + std::to_string(line_) + ": " + std::string(message);
+  // CR LF, LF and CR alone each end one line.
+  int line = 1;
+  for (std::size_t at = 0; at < position_; ++at)
+    line += text_[at] == '\n' ||
+            (text_[at] == '\r' && (at + 1 == text_.size() || text_[at + 1] != '\n'));
+  return std::string(name_) + ":" + std::to_string(line) + ": " + std::string(message);
 }
 
 void BvhCursor::fail(std::string_view message) const { throw Error(here(message)); }

@@ -1,7 +1,8 @@
-// Cursor in the text of a BVH file: reads words and numbers, counts lines, and throws errors that
-// name file and line. Private to reading BVH.
+// Cursor in the text of a BVH file: reads words and numbers, and throws errors that name file and
+// line. Private to reading BVH.
 #pragma once
 
+#include <span>
 #include <string>
 #include <string_view>
 
@@ -42,6 +43,14 @@ class BvhCursor {
 
   // A finite number of sensible size. `what`: its meaning, for the message.
   double number(std::string_view what);
+  // Such numbers from here on, as many as the line holds and `values` takes. Returns how many there
+  // are; the cursor stands behind the last.
+  std::size_t numbers_in_line(std::span<double> values) noexcept;
+  // Whether the text ends here, but for white space, or within a number that began here.
+  bool breaks_off() const;
+  bool ends_with_a_line() const {
+    return text_.empty() || text_.back() == '\n' || text_.back() == '\r';
+  }
   // A whole number in [least, most].
   long long count(std::string_view what, long long least, long long most);
 
@@ -53,7 +62,7 @@ class BvhCursor {
   std::string_view text_;
   std::string_view name_;
   std::size_t position_ = 0;
-  int line_ = 1;
+  std::size_t peeked_ = 0;  // the end of the word at `position_`, when it has been looked for
 };
 
 // For messages: in quotes, at most 40 bytes, what cannot be printed as \xNN.

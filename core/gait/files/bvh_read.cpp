@@ -36,6 +36,7 @@ Channel read_channel(BvhCursor& cursor, std::string_view joint) {
 std::vector<Channel> read_channels(BvhCursor& cursor, std::string_view joint) {
   const long long count = cursor.count("the number of channels", 0, most_channels_per_joint);
   std::vector<Channel> channels;
+  channels.reserve(static_cast<std::size_t>(count));
   std::array<bool, 3> placed{};
   for (long long i = 0; i < count; ++i) {
     const Channel channel = read_channel(cursor, joint);
@@ -126,6 +127,20 @@ class HierarchyReader {
   std::vector<Open> open_;
 };
 
+// What is said of rows in messages.
+std::string rows_told(long long announced) {
+  return "expected " + std::to_string(announced) + " rows as 'Frames:' says, found ";
+}
+
+// The row that the cursor is in is not `columns` numbers.
+[[noreturn]] void fail_in_row(BvhCursor& cursor, std::size_t columns, std::size_t found,
+                              long long row) {
+  if (found < columns && cursor.skip_blanks()) cursor.number("a channel's value");
+  cursor.fail("expected " + std::to_string(columns) + " values in the row of frame " +
+              std::to_string(row + 1) + ", found " +
+              (found == columns ? "more" : std::to_string(found)));
+}
+
 void read_rows(BvhCursor& cursor, BvhFile& file, long long announced) {
   std::size_t columns = 0;
   for (const auto& channels : file.channels) columns += channels.size();
@@ -133,35 +148,35 @@ void read_rows(BvhCursor& cursor, BvhFile& file, long long announced) {
     if (announced > 0) cursor.fail("expected at least one channel in the hierarchy, found none");
     return;
   }
-  // What is reserved follows from what the file holds, not from what its header says: a value takes
-  // two bytes at least.
-  std::vector<double> values;
-  values.reserve(
-      std::min(static_cast<std::size_t>(announced) * columns, cursor.bytes_left() / 2 + 1));
-  long long rows = 0;
-  while (cursor.next_line()) {
-    std::size_t found = 0;
-    do {
-      if (found == columns)
-        cursor.fail("expected " + std::to_string(columns) + " values in the row of frame " +
-                    std::to_string(rows + 1) + ", found more");
-      values.push_back(cursor.number("a channel's value"));
-      ++found;
-    } while (cursor.skip_blanks());
-    if (found != columns)
-      cursor.fail("expected " + std::to_string(columns) + " values in the row of frame " +
-                  std::to_string(rows + 1) + ", found " + std::to_string(found));
-    ++rows;
+  // Room follows from what the file holds, not from what its header says: a value takes two bytes
+  // at least.
+  const auto width = static_cast<Eigen::Index>(columns);
+  const auto most_rows = static_cast<Eigen::Index>((cursor.bytes_left() / 2 + 1) / columns + 1);
+  file.values.resize(std::min<Eigen::Index>(announced, most_rows), width);
+  Eigen::Index rows = 0;
+  bool cut = false;
+  while (!cut && cursor.next_line()) {
+    if (rows == file.values.rows())
+      file.values.conservativeResize(std::min(2 * rows + 16, most_rows), width);
+    const std::size_t found = cursor.numbers_in_line({file.values.row(rows).data(), columns});
+    // A recording that broke off, in the middle of its last row.
+    cut = found < columns && cursor.breaks_off();
+    if (!cut && (found < columns || cursor.skip_blanks()))
+      fail_in_row(cursor, columns, found, rows);
+    rows += cut ? 0 : 1;
   }
-  if (rows < announced)
-    cursor.fail("expected " + std::to_string(announced) + " rows as 'Frames:' says, found " +
-                std::to_string(rows));
-  if (rows > announced)
-    file.warnings.push_back(cursor.here("expected " + std::to_string(announced) +
-                                        " rows as 'Frames:' says, found " + std::to_string(rows) +
-                                        "; all are used"));
-  file.values = Eigen::Map<const decltype(file.values)>(
-      values.data(), static_cast<Eigen::Index>(rows), static_cast<Eigen::Index>(columns));
+  // Where a row is missing and the last line does not end, its last number may not be whole.
+  if (!cut && rows < announced && !cursor.ends_with_a_line() && rows > 0) {
+    cut = true;
+    --rows;
+  }
+  if (rows == 0 && announced > 0)
+    cursor.fail(rows_told(announced) + (cut ? "none that is whole" : "none"));
+  if (cut || rows != announced)
+    file.warnings.push_back(cursor.here(
+        rows_told(announced) + std::to_string(rows) +
+        (cut ? " whole ones, and the last one cut; the whole ones are used" : "; all are used")));
+  if (rows != file.values.rows()) file.values.conservativeResize(rows, width);
 }
 
 }  // namespace

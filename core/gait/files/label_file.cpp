@@ -165,6 +165,15 @@ std::vector<LabelSegment> labels_from_contacts(const std::vector<Contact>& conta
   return segments;
 }
 
+std::vector<LabelSegment> labels_from(std::vector<LabelSegment> segments, double start) {
+  std::erase_if(segments, [&](const LabelSegment& segment) { return segment.end <= start; });
+  for (LabelSegment& segment : segments) {
+    segment.start = std::max(0.0, segment.start - start);
+    segment.end -= start;
+  }
+  return segments;
+}
+
 std::vector<Contact> contacts_from_labels(std::vector<LabelSegment> segments, double frame_rate) {
   std::ranges::stable_sort(segments, {}, &LabelSegment::start);
   std::vector<Contact> contacts;

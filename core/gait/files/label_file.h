@@ -46,6 +46,10 @@ std::string labels_text(const std::vector<LabelSegment>& segments, LabelForm for
 std::vector<LabelSegment> labels_from_contacts(const std::vector<Contact>& contacts,
                                                double frame_rate);
 
+// Labels of a clip that begins `start` seconds later than the one they were written for. What ends
+// before it is left out.
+std::vector<LabelSegment> labels_from(std::vector<LabelSegment> segments, double start);
+
 // Contacts for labels: one at the start of each step, and one of the other foot at the end of a
 // step without a successor. Labels of steps are right, left, r and l in any case; others are
 // ignored. Times are rounded to the nearest frame. Throws Error, with the time, when steps overlap

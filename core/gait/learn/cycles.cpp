@@ -52,32 +52,39 @@ std::vector<CapturedCycle> cut_cycles(const std::vector<Walk>& walks, const Body
   for (std::size_t i = 0; i < walks.size(); ++i) {
     const Clip& clip = walks[i].clip;
     const std::vector<int> matched = match_joints(body, clip.skeleton, clip.name);
-    const JointRoles clip_roles = find_roles(clip.skeleton, roles);
+    const JointRoles clip_roles = find_roles(clip, roles);
     WalkTrack track = follow_walk(clip, clip_roles);
     if (!walks[i].contacts.empty()) track.contacts = walks[i].contacts;
-    const std::vector<Cycle> straight = straight_cycles(track);
     const BodyPoses poses = body_poses(clip, body, matched, track.cycle_seconds);
     int place = 0;
+    // Where a short clip has no cycle from right to right, one from left to left will do: it is the
+    // same cycle begun in its middle.
+    const Foot starts = cycles_between(track.contacts).empty() ? Foot::left : Foot::right;
     for (std::size_t c = 0; c + 2 < track.contacts.size(); ++c) {
-      const Contact &right = track.contacts[c], &left = track.contacts[c + 1],
+      const Contact &first = track.contacts[c], &middle = track.contacts[c + 1],
                     &end = track.contacts[c + 2];
-      if (right.foot != Foot::right || left.foot != Foot::left || end.foot != Foot::right) continue;
+      if (first.foot != starts || middle.foot == starts || end.foot != starts) continue;
+      // The steps of the right foot and of the left.
+      const bool right_first = starts == Foot::right;
+      const Step right{right_first ? first.frame : middle.frame,
+                       right_first ? middle.frame : end.frame, Foot::right};
+      const Step left{right_first ? middle.frame : first.frame,
+                      right_first ? end.frame : middle.frame, Foot::left};
       CapturedCycle cycle;
       cycle.walk = static_cast<int>(i);
       cycle.place = place++;
-      cycle.duration = (end.frame - right.frame) / clip.frame_rate;
+      cycle.duration = (end.frame - first.frame) / clip.frame_rate;
       cycle.leg_length = track.leg_length;
       cycle.speed = track.treadmill ? track.speed
                                     : travelled(track, clip.skeleton.size(), clip_roles.hips,
-                                                right.frame, end.frame) /
+                                                first.frame, end.frame) /
                                           cycle.duration;
-      cycle.straight = std::any_of(straight.begin(), straight.end(),
-                                   [&](const Cycle& known) { return known.begin == right.frame; });
+      cycle.straight = is_straight(track, {first.frame, end.frame});
       cycle.values.resize(static_cast<Eigen::Index>(frames * 3 * joints.size()));
       for (int k = 0; k < frames; ++k) {
         const double phase = 2.0 * k / frames;
-        const double at = phase < 1 ? right.frame + phase * (left.frame - right.frame)
-                                    : left.frame + (phase - 1) * (end.frame - left.frame);
+        const Step& step = phase < 1 ? right : left;
+        const double at = step.begin + (phase < 1 ? phase : phase - 1) * (step.end - step.begin);
         pose_at(poses, at, pose);
         pose_vector<double>(pose, body.references, joints,
                             {cycle.values.data() + k * 3 * joints.size(), 3 * joints.size()});

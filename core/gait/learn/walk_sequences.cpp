@@ -2,6 +2,8 @@
 
 #include <algorithm>
 #include <cmath>
+#include <map>
+#include <utility>
 
 #include "gait/error.h"
 #include "gait/model/body_pose.h"
@@ -40,7 +42,7 @@ std::vector<int> named_joints(const Skeleton& skeleton, const std::vector<std::s
 Body body_of(const Clip& clip, const WalkOptions& options) {
   Body body;
   body.skeleton = clip.skeleton;
-  const JointRoles roles = find_roles(clip.skeleton, options.roles);
+  const JointRoles roles = find_roles(clip, options.roles);
   if (!roles.has_legs())
     throw Error(clip.name +
                 ": expected joints for hips and for thigh, shank and foot of both legs; name them "
@@ -101,6 +103,14 @@ std::vector<Segment> segments_of(const std::vector<Contact>& contacts) {
   return longest;
 }
 
+// Steps of a short clip that can be learnt from: with their past, and a frame behind them.
+int learnable_steps(const std::vector<Contact>& contacts, int frames, double history_frames) {
+  int count = 0;
+  for (const Segment& step : segments_of(contacts))
+    count += step.begin >= history_frames && step.end < frames;
+  return count;
+}
+
 // The reference rotation of each joint: the chordal mean over all frames of all used clips.
 std::vector<Eigen::Quaterniond> references_of(const std::vector<Seen>& seen, int joints) {
   std::vector<Eigen::Quaterniond> references, of_joint;
@@ -158,6 +168,20 @@ std::vector<Stream> streams_of(const Body& body, const std::vector<int>& joints)
   return streams;
 }
 
+// `together`: steps in all clips of its style and subject.
+std::string why_not_used(const WalkUse& use, int together, const WalkOptions& options) {
+  if (use.steps > 0 && together >= options.fewest_steps) {
+    char text[96];
+    std::snprintf(text, sizeof text, "expected a step with %.2g s of motion before it, found none",
+                  options.history);
+    return text;
+  }
+  return "expected at least " + std::to_string(options.fewest_steps) + " steps" +
+         (together > use.steps
+              ? " in the clips of its style and subject, found " + std::to_string(together)
+              : ", found " + std::to_string(use.steps));
+}
+
 }  // namespace
 
 Sequence walk_sequence(const Body& body, const BodyPoses& poses,
@@ -191,18 +215,20 @@ WalkSequences walk_sequences(const std::vector<Walk>& walks, const WalkOptions& 
 
   std::vector<Seen> seen;
   std::vector<double> cycle_seconds;
-  for (std::size_t i = 0; i < walks.size(); ++i) {
-    const Walk& walk = walks[i];
+  std::map<std::pair<std::string, std::string>, int> together;  // steps per style and subject
+  std::vector<int> learnable;
+  for (const Walk& walk : walks) {
     WalkUse use;
     use.name = walk.clip.name;
     use.style = walk.style;
     check_contacts(walk);
     Seen one;
     one.matched = match_joints(result.body, walk.clip.skeleton, walk.clip.name);
-    JointRoles roles = find_roles(walk.clip.skeleton, options.roles);
+    JointRoles roles = find_roles(walk.clip, options.roles);
     const WalkTrack track = follow_walk(walk.clip, roles);
     const double ratio = result.frame_rate / walk.clip.frame_rate;
     one.contacts = contacts_at(walk.contacts.empty() ? track.contacts : walk.contacts, ratio);
+    one.cycle_seconds = track.cycle_seconds;
     use.steps = static_cast<int>(segments_of(one.contacts).size());
     use.seconds = walk.clip.frames() / walk.clip.frame_rate;
     use.speed = walk.speed.value_or(track.speed);
@@ -213,22 +239,34 @@ WalkSequences walk_sequences(const std::vector<Walk>& walks, const WalkOptions& 
                     result.frame_rate);
       use.remark = text;
     }
-    if (use.steps < options.fewest_steps) {
-      use.why_not = "expected at least " + std::to_string(options.fewest_steps) + " steps, found " +
-                    std::to_string(use.steps);
-      result.uses.push_back(use);
+    learnable.push_back(use.steps >= options.fewest_steps
+                            ? use.steps
+                            : learnable_steps(one.contacts,
+                                              static_cast<int>(walk.clip.frames() * ratio),
+                                              options.history * result.frame_rate));
+    together[{walk.style, walk.subject}] += learnable.back();
+    result.uses.push_back(std::move(use));
+    seen.push_back(std::move(one));
+  }
+  std::vector<Seen> all = std::move(seen);
+  seen.clear();
+  for (std::size_t i = 0; i < walks.size(); ++i) {
+    WalkUse& use = result.uses[i];
+    const int steps = together[{walks[i].style, walks[i].subject}];
+    if (learnable[i] == 0 || steps < options.fewest_steps) {
+      use.why_not = why_not_used(use, steps, options);
       continue;
     }
-    one.cycle_seconds = track.cycle_seconds;
     use.used = true;
-    result.uses.push_back(use);
-    seen.push_back(std::move(one));
-    cycle_seconds.push_back(track.cycle_seconds);
+    cycle_seconds.push_back(all[i].cycle_seconds);
+    seen.push_back(std::move(all[i]));
     result.walk_of_sequence.push_back(static_cast<int>(i));
   }
   if (seen.empty())
-    throw Error("expected at least one clip with " + std::to_string(options.fewest_steps) +
-                " steps; none of " + std::to_string(walks.size()) + " has them");
+    throw Error("expected clips of one style and subject with " +
+                std::to_string(options.fewest_steps) + " steps together; none of " +
+                std::to_string(walks.size()) + " clips is of such: " + walks.front().clip.name +
+                ": " + result.uses.front().why_not);
   std::nth_element(cycle_seconds.begin(), cycle_seconds.begin() + cycle_seconds.size() / 2,
                    cycle_seconds.end());
   result.body.heading_window = cycle_seconds[cycle_seconds.size() / 2];

@@ -26,7 +26,10 @@ struct WalkOptions {
   std::vector<std::string> input_joints;   // names; empty: all but hips and legs
   std::vector<std::string> output_joints;  // names; empty: hips and legs
   RoleTable roles;                         // overrides what names suggest
-  int fewest_steps = 4;                    // a clip with fewer is left out
+  // A clip with fewer is used when the clips of its style and subject have so many together.
+  int fewest_steps = 4;
+  // Seconds of motion that a step needs before it, to be learnt from (LearningOptions::history).
+  double history = 10.0 / 30;
 };
 
 // Whether and how learning used one walk.

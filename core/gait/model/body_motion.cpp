@@ -6,7 +6,10 @@
 
 #include "gait/error.h"
 #include "gait/files/bvh.h"
+#include "gait/motion/body_form.h"
 #include "gait/motion/body_frame.h"
+#include "gait/motion/captured/rest_rows.h"
+#include "gait/motion/captured/walk_doubts.h"
 #include "gait/motion/contacts.h"
 #include "gait/motion/kinematics.h"
 #include "gait/motion/resample.h"
@@ -90,6 +93,7 @@ BodyMotion motion_on_body(const Clip& clip, const Model& model, std::vector<Labe
   const BodyPoses poses = poses_on_body(clip, model, matched, track.cycle_seconds);
 
   BodyMotion motion;
+  if (roles.has_legs()) motion.warnings = doubts_told(walk_doubts(clip, roles, track), clip.name);
   motion.name = clip.name;
   motion.frame_rate = clip.frame_rate;
   motion.joints = poses.joints;
@@ -116,9 +120,12 @@ BodyMotion motion_on_body(const Clip& clip, const Model& model, std::vector<Labe
 
 BodyMotion read_motion(const std::filesystem::path& path, const Model& model) {
   const BvhFile file = read_bvh(path);
-  const Clip in_file = clip_from_bvh(file);
-  if (in_file.frames() == 0) throw Error(file.name + ": expected frames to play, found none");
+  const Clip whole = clip_from_bvh(file);
+  const MovingRows rows = moving_rows(whole);
   const Body& body = required_body(model);
+  const BodyForm form = body_form(rows_of(whole, rows), hips_and_legs_of(body));
+  const Clip& in_file = form.clip;
+  if (in_file.frames() == 0) throw Error(file.name + ": expected frames to play, found none");
   const JointRoles roles =
       matched_roles(body, match_joints(body, in_file.skeleton, file.name, needed_joints(body)),
                     in_file.skeleton.size());
@@ -132,7 +139,7 @@ BodyMotion read_motion(const std::filesystem::path& path, const Model& model) {
     std::error_code ignored;
     if (!std::filesystem::is_regular_file(beside, ignored)) continue;
     labels_name = utf8_of(beside);
-    labels = read_labels(beside).segments;
+    labels = labels_from(read_labels(beside).segments, rows.begin / in_file.frame_rate);
     break;
   }
   BodyMotion motion;
@@ -143,8 +150,11 @@ BodyMotion read_motion(const std::filesystem::path& path, const Model& model) {
     const bool of_labels = !labels_name.empty() && !text.starts_with(file.name);
     throw Error((of_labels ? labels_name + ": " : "") + text);
   }
-  motion.warnings = file.warnings;
-  motion.warnings.insert(motion.warnings.end(), frame.warnings.begin(), frame.warnings.end());
+  std::vector<std::string> warnings = file.warnings;
+  if (auto told = rest_rows_told(whole, rows)) warnings.push_back(std::move(*told));
+  warnings.insert(warnings.end(), form.warnings.begin(), form.warnings.end());
+  warnings.insert(warnings.end(), frame.warnings.begin(), frame.warnings.end());
+  motion.warnings.insert(motion.warnings.begin(), warnings.begin(), warnings.end());
   return motion;
 }
 

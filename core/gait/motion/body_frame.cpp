@@ -1,40 +1,19 @@
 #include "gait/motion/body_frame.h"
 
 #include <array>
+#include <charconv>
 #include <cmath>
 #include <numbers>
-#include <span>
 #include <utility>
 
 #include "gait/error.h"
+#include "gait/motion/captured/walk_doubts.h"
+#include "gait/motion/contacts.h"
 #include "gait/motion/kinematics.h"
 #include "gait/motion/rotation.h"
-#include "gait/numbers.h"
 
 namespace gait {
 namespace {
-
-struct Unit {
-  std::string_view name;
-  double metres;
-};
-
-// Units of files, the usual ones first. MakeHuman writes decimetres; CMU's own files are in units
-// of 1/0.45 inch.
-constexpr std::size_t usual_units = 4;
-constexpr std::array<Unit, 7> units{{{"m", 1},
-                                     {"cm", 0.01},
-                                     {"mm", 0.001},
-                                     {"in", 0.0254},
-                                     {"ft", 0.3048},
-                                     {"dm", 0.1},
-                                     {"cmu", 0.0254 / 0.45}}};
-
-// Thigh and shank of a grown person (m); the ranges of the units above do not overlap within it.
-constexpr double usual_leg = 0.83, shortest_leg = 0.62, longest_leg = 1.1;
-// Height over thigh and shank, 0.245 and 0.246 of it (Drillis and Contini 1966): for rigs whose
-// legs have no names.
-constexpr double height_over_leg = 2.04;
 
 struct Measured {
   Eigen::Vector3d feet_to_head = Eigen::Vector3d::Zero();  // mean over frames, file's unit
@@ -133,47 +112,34 @@ double extent(const Clip& clip) {
   return (high - low).maxCoeff();
 }
 
-void guess_unit(const Clip& clip, double leg, BodyFrame& frame) {
-  const bool legs_known = leg > 0;
-  if (!legs_known) leg = extent(clip) / height_over_leg;
-  if (!(leg > 0)) {
-    frame.metres_per_unit = 0.01;
-    frame.warnings.push_back(clip.name +
-                             ": cannot tell the unit, as the body has no size; taking cm (say "
-                             "--unit m, cm, mm, in, ft or metres per unit)");
-    return;
-  }
-  const Unit* best = nullptr;
-  double least = INFINITY;
-  for (const Unit& unit : std::span(units).first(legs_known ? units.size() : usual_units))
-    if (const double far = std::abs(std::log(leg * unit.metres / usual_leg)); far < least) {
-      least = far;
-      best = &unit;
-    }
-  frame.metres_per_unit = best->metres;
-  const double metres = leg * best->metres;
-  if (legs_known && metres >= shortest_leg && metres <= longest_leg) return;
-  frame.warnings.push_back(
-      clip.name + ": the unit is doubtful, as " +
-      (legs_known
-           ? "a leg of " + number_text(leg) + " units"
-           : "no legs are known and a body of " + number_text(leg * height_over_leg) + " units") +
-      " fits none well; taking " + std::string(best->name) + ", " + number_text(metres) +
-      " m of leg (say --unit m, cm, mm, in, ft or metres per unit)");
+// How the body walks, if it does.
+std::optional<WalkTempo> tempo_of(const Clip& clip, const JointRoles& roles, double leg,
+                                  const BodyFrame& frame) {
+  BodyFrame scaled = frame;
+  scaled.metres_per_unit = 1 / leg;
+  const Clip in_legs = in_metres_y_up(clip, scaled);
+  const WalkTrack track = follow_walk(in_legs, roles);
+  if (steps_between(track.contacts).size() < 2 || !(track.speed > 0) ||
+      !walk_doubts(in_legs, roles, track).empty())
+    return std::nullopt;
+  return WalkTempo{1 / track.cycle_seconds, track.speed};
+}
+
+void guess_unit(const Clip& clip, const JointRoles& roles, double leg, BodyFrame& frame) {
+  UnitGuess guess;
+  if (leg > 0)
+    guess = unit_of_leg(leg, unit_is_open(leg) ? tempo_of(clip, roles, leg, frame) : std::nullopt);
+  else if (const double height = extent(clip); height > 0)
+    guess = unit_of_height(height);
+  else
+    guess.doubt =
+        "cannot tell the unit, as the body has no size; taking cm (say --unit m, cm, mm, in, ft or "
+        "metres per unit)";
+  frame.metres_per_unit = guess.metres_per_unit;
+  if (!guess.doubt.empty()) frame.warnings.push_back(clip.name + ": " + guess.doubt);
 }
 
 }  // namespace
-
-double metres_per_unit_named(std::string_view unit) {
-  for (const Unit& known : units)
-    if (known.name == unit) return known.metres;
-  const auto metres = number_in(unit);
-  if (metres && *metres >= 1e-6 && *metres <= 1e6) return *metres;
-  throw Error(
-      "expected a unit (m, cm, mm, dm, in, ft) or metres per unit as a number above zero, "
-      "found '" +
-      std::string(unit) + "'");
-}
 
 BodyFrame guess_body_frame(const Clip& clip, const JointRoles& roles,
                            const BodyFrameOverride& said) {
@@ -191,7 +157,7 @@ BodyFrame guess_body_frame(const Clip& clip, const JointRoles& roles,
     guess_up(clip, measured.feet_to_head, frame);
   }
   if (!said.metres_per_unit)
-    guess_unit(clip, measured.leg, frame);
+    guess_unit(clip, roles, measured.leg, frame);
   else if (*said.metres_per_unit > 0)
     frame.metres_per_unit = *said.metres_per_unit;
   else

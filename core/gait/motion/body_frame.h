@@ -4,11 +4,11 @@
 #include <Eigen/Geometry>
 #include <optional>
 #include <string>
-#include <string_view>
 #include <vector>
 
 #include "gait/motion/clip.h"
 #include "gait/motion/joint_roles.h"
+#include "gait/motion/unit_guess.h"
 
 namespace gait {
 
@@ -27,15 +27,11 @@ struct BodyFrameOverride {
   std::optional<char> up_axis;  // 'x', 'y' or 'z'
 };
 
-// "m", "cm", "mm", "dm", "in", "ft", "cmu" (1/0.45 inch, in which CMU wrote its files) or a number:
-// metres per unit. Throws Error for others.
-double metres_per_unit_named(std::string_view unit);
-
 // Guesses both. Up is the file's axis nearest to the direction from feet to head over all frames.
-// The unit is the one in which the leg (thigh + shank by forward kinematics) is as long as a
-// person's, 0.62 to 1.1 m. Warns when the body leans by more than 30 degrees, when no unit fits, or
-// when the joints that this needs are not known. When frames agree by less than half (tumbling,
-// noise), up is Y, with a warning.
+// The unit is the one in which the leg (thigh + shank by forward kinematics) is most likely a
+// person's (unit_guess.h). Warns when the body leans by more than 30 degrees, when two units are
+// plausible or none, or when the joints that this needs are not known. When frames agree by less
+// than half (tumbling, noise), up is Y, with a warning.
 BodyFrame guess_body_frame(const Clip& clip, const JointRoles& roles,
                            const BodyFrameOverride& said = {});
 

@@ -81,7 +81,8 @@ std::vector<Contact> contacts_along(const Walk& walk, const std::vector<double>&
   if (widest < least_stride_per_leg * leg_length) return {};
   const double threshold = 0.15 * widest;
 
-  std::vector<Contact> contacts;
+  // By the furthest moments of all leads, whatever their length.
+  std::vector<Contact> leads;
   int begin = 0, lead = 0;  // lead: +1 right foot ahead, -1 left, 0 not known yet
   const auto close = [&](int end) {
     if (lead == 0) return;
@@ -90,11 +91,7 @@ std::vector<Contact> contacts_along(const Walk& walk, const std::vector<double>&
     for (int frame = begin; frame < end; ++frame)
       if (walk.ahead(frame, foot, heading) > walk.ahead(best, foot, heading)) best = frame;
     // A maximum at the clip's edge is where the capture began or stopped, not a contact.
-    if (best == 0 || best == frames - 1) return;
-    if (!contacts.empty() && (best - contacts.back().frame) < shortest_step_seconds * frame_rate)
-      return;
-    if (!contacts.empty() && contacts.back().foot == foot) return;
-    contacts.push_back({best, foot});
+    if (best != 0 && best != frames - 1) leads.push_back({best, foot});
   };
   for (int frame = 0; frame < frames; ++frame) {
     const int now = right_lead[frame] > threshold ? 1 : right_lead[frame] < -threshold ? -1 : 0;
@@ -104,6 +101,22 @@ std::vector<Contact> contacts_along(const Walk& walk, const std::vector<double>&
     lead = now;
   }
   close(frames);
+
+  // Where most leads are so short, it is the clock that is fast, not the walker who stumbles.
+  std::vector<int> apart;
+  for (std::size_t i = 0; i + 1 < leads.size(); ++i)
+    apart.push_back(leads[i + 1].frame - leads[i].frame);
+  const auto middle = apart.begin() + static_cast<std::ptrdiff_t>(apart.size() / 2);
+  double shortest = shortest_step_seconds * frame_rate;
+  if (!apart.empty()) {
+    std::nth_element(apart.begin(), middle, apart.end());
+    if (*middle < shortest) shortest = *middle / 2.0;
+  }
+  std::vector<Contact> contacts;
+  for (const Contact& contact : leads)
+    if (contacts.empty() ||
+        (contact.frame - contacts.back().frame >= shortest && contact.foot != contacts.back().foot))
+      contacts.push_back(contact);
   return contacts;
 }
 
@@ -111,7 +124,9 @@ double median_cycle(const std::vector<Contact>& contacts, double frame_rate) {
   std::vector<int> lengths;
   for (std::size_t i = 0; i + 2 < contacts.size(); ++i)
     lengths.push_back(contacts[i + 2].frame - contacts[i].frame);
-  if (lengths.empty()) return first_guess_of_cycle;
+  if (lengths.empty())
+    return contacts.size() < 2 ? first_guess_of_cycle
+                               : 2 * (contacts[1].frame - contacts[0].frame) / frame_rate;
   std::nth_element(lengths.begin(), lengths.begin() + lengths.size() / 2, lengths.end());
   return lengths[lengths.size() / 2] / frame_rate;
 }
@@ -168,20 +183,27 @@ WalkTrack follow_walk(const Clip& clip, const JointRoles& roles) {
     Eigen::Vector3d moved = walk.position(frame + 1, roles.hips) - walk.position(frame, roles.hips);
     path += moved.dot(heading_direction(track.heading[frame]));
   }
-  const double root_speed = last > first ? path * clip.frame_rate / (last - first) : 0;
-  const double feet_speed = stance_speed(walk, track, clip.frame_rate);
-  track.treadmill = feet_speed > 0.2 && std::abs(root_speed) < 0.3 * feet_speed;
-  track.speed = track.treadmill ? feet_speed : std::abs(root_speed);
+  track.root_speed = last > first ? path * clip.frame_rate / (last - first) : 0;
+  track.feet_speed = stance_speed(walk, track, clip.frame_rate);
+  track.treadmill = track.feet_speed > 0.2 && std::abs(track.root_speed) < 0.3 * track.feet_speed;
+  track.speed = track.treadmill ? track.feet_speed : std::abs(track.root_speed);
   return track;
 }
 
+double natural_frequency(double speed_per_leg, double leg_length) {
+  constexpr double inman = 0.743, grown_leg = 0.83;
+  return inman * std::sqrt(speed_per_leg * std::sqrt(grown_leg / leg_length));
+}
+
+bool is_straight(const WalkTrack& track, const Cycle& cycle, double limit) {
+  const auto [low, high] =
+      std::minmax_element(track.heading.begin() + cycle.begin, track.heading.begin() + cycle.end);
+  return *high - *low < limit;
+}
+
 std::vector<Cycle> straight_cycles(const WalkTrack& track, double limit) {
-  std::vector<Cycle> straight;
-  for (const Cycle& cycle : cycles_between(track.contacts)) {
-    const auto [low, high] =
-        std::minmax_element(track.heading.begin() + cycle.begin, track.heading.begin() + cycle.end);
-    if (*high - *low < limit) straight.push_back(cycle);
-  }
+  std::vector<Cycle> straight = cycles_between(track.contacts);
+  std::erase_if(straight, [&](const Cycle& cycle) { return !is_straight(track, cycle, limit); });
   return straight;
 }
 

@@ -19,6 +19,8 @@ struct WalkTrack {
   std::vector<Contact> contacts;
   double cycle_seconds = 1.1;  // median time from contact to the same foot's next contact
   double speed = 0;            // m/s along the ground, positive when walking backwards too
+  double root_speed = 0;       // m/s of the hips along the heading, negative backwards
+  double feet_speed = 0;       // m/s at which standing feet fall behind the hips
   bool treadmill = false;      // the root stays in place while the feet travel
   double leg_length = 0;       // thigh + shank, metres
 };
@@ -27,7 +29,14 @@ struct WalkTrack {
 // clip without steps has no contacts; that is not an error.
 WalkTrack follow_walk(const Clip& clip, const JointRoles& roles);
 
-// Cycles during which the heading changes by less than `limit` radians (T10 §3).
+// Cycles per second that legs fall into at a speed in leg lengths per second: Inman's law f = 0.743
+// sqrt(V) (G04 eq. 4), which holds for grown legs of 0.83 m; others swing by dynamic similarity,
+// times (0.83 m / leg)^(1/4). 142 captured walks lie between 0.85 and 1.39 of it.
+double natural_frequency(double speed_per_leg, double leg_length);
+
+// Whether the heading changes by less than `limit` radians during a cycle, and the cycles in which
+// it does (T10 §3).
+bool is_straight(const WalkTrack& track, const Cycle& cycle, double limit = 0.17453);
 std::vector<Cycle> straight_cycles(const WalkTrack& track, double limit = 0.17453);
 
 }  // namespace gait

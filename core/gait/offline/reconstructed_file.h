@@ -17,21 +17,26 @@ namespace gait {
 
 // Where the hips of the written file come from.
 enum class FileRoot {
-  feet,  // hips by the feet, from the origin along +Z; joints above them at rest, at the origin
-  file   // place and heading of the hips as in the file, joints above them untouched
+  // Hips by the feet, from the origin along +Z; joints above them at rest, at the origin. Where the
+  // trunk hangs above the hips (a root at the head) it stays as measured: the hips follow its
+  // heading from where they were, and the root's place goes with them.
+  feet,
+  file  // place and heading of the hips as in the file, joints above them untouched
 };
 
 struct ReconstructedFile {
   BvhFile file;
   ReconstructedClip walk;             // in metres, with the decisions per frame
+  int first_row = 0;                  // the file's row that is the walk's frame 0
   std::vector<std::string> warnings;  // of the guesses of unit and up axis
 };
 
-// Values of input joints, and of joints the model does not know, stay as they are. Output joints
-// rest at their offsets where they have position channels. `calibrate`: bones may rest in other
-// directions than the model's (motion/rest_calibration.h). The root is moved only when the hips
-// are among the outputs or the inputs. Throws Error naming the joints that the file lacks, whose
-// rest directions differ from the model's, or whose channels cannot take a rotation.
+// Values of input joints, of joints the model does not know, and of rest rows
+// (motion/captured/rest_rows.h) stay as they are. Output joints rest at their offsets where they
+// have position channels. `calibrate`: bones may rest in other directions than the model's
+// (motion/rest_calibration.h). The root is moved only when the hips are among the outputs or the
+// inputs. Throws Error naming the joints that the file lacks, whose rest directions differ from the
+// model's, or whose channels cannot take a rotation.
 ReconstructedFile reconstruct_file(std::shared_ptr<const Model> model, const BvhFile& file,
                                    const BodyFrameOverride& said, const PlaySettings& settings,
                                    FileRoot root, bool calibrate = false);

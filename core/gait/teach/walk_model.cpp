@@ -60,7 +60,9 @@ LearntWalks learn_walks(const std::vector<Walk>& walks, const std::vector<Walk>&
     if (selection.learning.hmm.cancel.requested()) throw Error("cancelled");
   };
   LearntWalks learnt;
-  learnt.sequences = walk_sequences(walks, options);
+  WalkOptions walk_options = options;
+  walk_options.history = selection.learning.history.empty() ? 0 : selection.learning.history.back();
+  learnt.sequences = walk_sequences(walks, walk_options);
   check_cancel();
   learnt.selected = select_walk_model(learnt.sequences, selection, origin);
   Model& model = learnt.selected.model;
