@@ -33,11 +33,15 @@ class Phase {
     pull_ = arguments.only().number(0, 0, 10);
     clock().set_pull(pull_);
   }
+  void ahead(const Arguments& arguments) {
+    clock().set_ahead(arguments.only().number(0, 0, 200) / 1000);
+  }
   void tap(const Arguments&) { clock().tap(); }
   void reset(const Arguments&) { clock().reset(); }
   void dump(const Arguments&) {
     info_.add(cadence_).send("cadence");
     info_.add(pull_).send("pull");
+    info_.add(1000 * clock().ahead()).send("ahead");
     info_.add(clock().walking() ? 1 : 0).send("walking");
   }
   void report_perf(const Arguments&) { signals_.report(info_); }
@@ -67,7 +71,8 @@ class Phase {
 void setup_phase() {
   Class<Phase>("gait.phase~")
       .messages<&Phase::phase, &Phase::cadence, &Phase::contact, &Phase::walking, &Phase::pull,
-                &Phase::tap>({"phase", "cadence", "contact", "walking", "pull", "tap"})
+                &Phase::ahead, &Phase::tap>(
+          {"phase", "cadence", "contact", "walking", "pull", "ahead", "tap"})
       .common()
       .refuse_others()
       .dsp();

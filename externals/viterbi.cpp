@@ -1,5 +1,8 @@
 // [gait.viterbi~ NAME -signals n | -mc]: recognises steps and style (T14) in frames that come as
 // messages or signals, and runs a phase clock beside the walk.
+#include <cmath>
+
+#include "gait/model/label_cycle.h"
 #include "gait/play/input/sender_clock.h"
 #include "gait/play/map/observation_message.h"
 #include "gait/play/recognise/live_recogniser.h"
@@ -82,6 +85,7 @@ class Viterbi final : public ModelPlayer<Recognising> {
     (settings_.*Set)(arguments);
     if (playing()) settings_.apply(live(), *model()->model);
     sender_.set_rate(settings_.rate());
+    signals_.clock().set_ahead(settings_.ahead());
   }
   void resend(const Arguments&) {
     tell(streaming_, "stream");
@@ -136,6 +140,8 @@ class Viterbi final : public ModelPlayer<Recognising> {
     info_.reserve(static_cast<int>(learnt.styles.size()) + 8);
     signal_input_.set_rate(learnt.frame_rate);
     signals_.replace(fresh.live.recogniser().clock_settings());
+    signals_.clock().set_ahead(settings_.ahead());
+    steps_ = labels_in_step(learnt);
     sender_.reset();
     step_ = style_ = -1;
   }
@@ -231,14 +237,13 @@ class Viterbi final : public ModelPlayer<Recognising> {
       info_.add_text(learnt.styles[style_]).add(styles[style_]).send("style");
     }
     if (!styles.empty()) info_.add(styles).send("styles");
-    const std::string& label = learnt.labels[decision.label].name;
-    info_.add_text(label).add(decision.state).add(decision.log_likelihood).send("state");
+    info_.add_text(learnt.labels[decision.label].name)
+        .add(decision.state)
+        .add(decision.log_likelihood)
+        .send("state");
     // What was never taught is no gesture; of a walk, any walk is one.
     const int step = !learnt.body && live.strange() ? nothing_taught : decision.label;
-    if (walking_ && step != step_) {
-      step_ = step;
-      info_.add_text(step == nothing_taught ? "null" : label).send("step");
-    }
+    if (walking_ && !ahead_of_steps()) tell_step(step, learnt);
     info_.add(decision.cadence).send("cadence");
     info_.add(decision.phase).send("phase");
     // A walk by itself falls in step with a new stream before it changes over to it.
@@ -249,7 +254,29 @@ class Viterbi final : public ModelPlayer<Recognising> {
     message_.add(now.observation.write(live.recogniser())).send("obs");
   }
 
-  void touch(int step) { info_.add(step % 2 == 0 ? "right" : "left").send("contact"); }
+  // Contacts come from the clock. Where it runs ahead, so do steps.
+  void touch(int step) {
+    if (playing() && ahead_of_steps())
+      tell_step(steps_[static_cast<std::size_t>(step)], *model()->model);
+    info_.add(step % 2 == 0 ? "right" : "left").send("contact");
+  }
+  bool ahead_of_steps() const { return settings_.ahead() > 0 && !steps_.empty(); }
+  void tell_step(int step, const Model& learnt) {
+    if (step == step_) return;
+    step_ = step;
+    const bool taught = step != nothing_taught;
+    info_.add_text(taught ? learnt.labels[static_cast<std::size_t>(step)].name : "null")
+        .send("step");
+  }
+  // The label of each step of the cycle; empty where labels form no single cycle.
+  static std::vector<int> labels_in_step(const Model& learnt) {
+    const std::vector<LabelCycle> cycles = label_cycles(learnt);
+    if (cycles.front().labels != static_cast<int>(cycles.size())) return {};
+    std::vector<int> labels(cycles.size());
+    for (std::size_t label = 0; label < cycles.size(); ++label)
+      labels[static_cast<std::size_t>(cycles[label].index)] = static_cast<int>(label);
+    return labels;
+  }
 
   void tell(bool on, const char* selector) {
     info_.add(on ? 1 : 0).send(selector);
@@ -262,7 +289,10 @@ class Viterbi final : public ModelPlayer<Recognising> {
     signals_.keep_going();
     streaming_ = false;
     const PhaseClock& clock = signals_.clock();
-    message_.add(clock.phase()).add(clock.cadence()).add(live().recogniser().styles());
+    // Where the body was, not where the clock runs ahead of it.
+    const double phase = clock.phase() - clock.ahead() * clock.frequency();
+    message_.add(phase - std::floor(phase)).add(clock.cadence());
+    message_.add(live().recogniser().styles());
     message_.send("place");
     tell(false, "stream");
     live().reset();
@@ -286,6 +316,7 @@ class Viterbi final : public ModelPlayer<Recognising> {
   int told_places_ = 0;  // since the stream began
   static constexpr int nothing_taught = -2;
   int step_ = -1, style_ = -1;  // sent last
+  std::vector<int> steps_;      // label of each step of the cycle; empty: none
   Ticker lost_{[this] { lost(); }};
   Ticker stop_{[this] { signals_.clock().set_walking(false); }};
 };
@@ -302,8 +333,9 @@ void setup_viterbi() {
       .messages<&Viterbi::decoder, &Viterbi::mask, &Viterbi::set<&ViterbiSetting::rate>,
                 &Viterbi::set<&ViterbiSetting::memory>, &Viterbi::set<&ViterbiSetting::margin>,
                 &Viterbi::set<&ViterbiSetting::hold>, &Viterbi::set<&ViterbiSetting::timeout>,
-                &Viterbi::set<&ViterbiSetting::on_lost>, &Viterbi::resend>(
-          {"decoder", "mask", "rate", "memory", "margin", "hold", "timeout", "onlost", "resend"})
+                &Viterbi::set<&ViterbiSetting::ahead>, &Viterbi::set<&ViterbiSetting::on_lost>,
+                &Viterbi::resend>({"decoder", "mask", "rate", "memory", "margin", "hold", "timeout",
+                                   "ahead", "onlost", "resend"})
       .common()
       .dsp();
 }

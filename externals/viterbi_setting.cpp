@@ -66,6 +66,10 @@ void ViterbiSetting::timeout(const Arguments& arguments) {
   timeout_ = arguments.only().number(0, 0.02, longest);
 }
 
+void ViterbiSetting::ahead(const Arguments& arguments) {
+  ahead_ = arguments.only().number(0, 0, 200) / 1000;
+}
+
 std::vector<std::string> ViterbiSetting::forget_unknown(const Model& model) {
   std::vector<std::string> unknown;
   for (const Mask& mask : masks_)
@@ -107,6 +111,7 @@ void ViterbiSetting::dump(Outlet& info) const {
   info.add(margin_).send("margin");
   info.add(hold_).send("hold");
   info.add(timeout_).send("timeout");
+  info.add(1000 * ahead_).send("ahead");
   info.add(walks_on_ ? "walk" : "stop");
   if (lost_seconds_) info.add(*lost_seconds_);
   info.send("onlost");

@@ -23,6 +23,7 @@ class ViterbiSetting {
   void margin(const Arguments& arguments);
   void hold(const Arguments& arguments);
   void timeout(const Arguments& arguments);
+  void ahead(const Arguments& arguments);
 
   // Drops masks of inputs that this model lacks, and returns the names of these.
   std::vector<std::string> forget_unknown(const Model& model);
@@ -35,6 +36,7 @@ class ViterbiSetting {
 
   double rate() const { return rate_; }        // of the sender, frames/s; 0: by arrival
   double timeout() const { return timeout_; }  // seconds without a frame: the stream is lost
+  double ahead() const { return ahead_; }      // seconds by which contacts are early
   std::optional<double> going_on() const { return going_on_; }  // seconds; none: for ever
 
   void dump(Outlet& info) const;
@@ -49,7 +51,7 @@ class ViterbiSetting {
   std::vector<Mask> masks_;  // later ones count more
   bool walks_on_ = true;
   std::optional<double> going_on_, lost_seconds_;
-  double rate_ = 0, timeout_ = 0.25;
+  double rate_ = 0, timeout_ = 0.25, ahead_ = 0;
   std::optional<float> memory_;
   float margin_ = 0.1f;
   double hold_ = 0.3;

@@ -21,6 +21,8 @@ struct EvaluateOptions {
   std::string model;
   WalkReading reading;
   PlaySettings settings;
+  double ahead = 0, jitter = 0;  // ms
+  double sender_rate = 0;
   bool json = false;
 };
 
@@ -34,7 +36,8 @@ Evaluation judge(const std::shared_ptr<const Model>& model, const EvaluateOption
       });
   if (options.reading.calibrate && model->body)
     for (Walk& walk : read.walks) walk.clip = calibrated(walk.clip, model->body->skeleton);
-  return evaluate(model, read.walks, options.settings, read.roles, [&](double share) {
+  const SenderManner sender{options.sender_rate, options.jitter / 1000, options.ahead / 1000};
+  return evaluate(model, read.walks, options.settings, {sender, read.roles}, [&](double share) {
     interrupt.check();
     progress.show(0.3 + 0.7 * share, "playing");
   });
@@ -55,6 +58,13 @@ void add_options(CLI::App& app, EvaluateOptions& options) {
   add_model_argument(app, options.model);
   add_walk_reading(app, options.reading);
   add_play_options(app, options.settings);
+  add_value(app, "--ahead", "MS", options.ahead, "Contacts: how early they are to be heard")
+      ->check(CLI::Range(0, 1000));
+  add_value(app, "--jitter", "MS", options.jitter, "Contacts: how late a frame may arrive")
+      ->check(CLI::Range(0, 1000));
+  add_value(app, "--sender-rate", "HZ", options.sender_rate,
+            "Contacts: frames a second that arrive; 0: the clip's")
+      ->check(CLI::Range(0, 1000));
   add_json_flag(app, options.json, "Report as JSON: every figure, per clip, style and joint");
   app.footer(std::string(label_help) + R"(
 

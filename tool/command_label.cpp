@@ -75,7 +75,7 @@ void print_table(const LabelledClip& clip) {
   std::size_t next = 0;  // the step that starts at this contact or later
   for (const Contact& contact : track.contacts) {
     std::printf("  %-6s %7d %9.3f", std::string(foot_name(contact.foot)).c_str(), contact.frame,
-                contact.frame / clip.frame_rate);
+                contact.seconds(clip.frame_rate));
     while (next < clip.steps.size() && clip.steps[next].begin < contact.frame) ++next;
     if (next < clip.steps.size() && clip.steps[next].begin == contact.frame)
       std::printf(" %9.3f", (clip.steps[next].end - clip.steps[next].begin) / clip.frame_rate);
@@ -88,7 +88,7 @@ nlohmann::ordered_json as_json(const LabelledClip& clip) {
   for (const Contact& contact : clip.track.contacts)
     contacts.push_back({{"foot", foot_name(contact.foot)},
                         {"frame", contact.frame},
-                        {"seconds", contact.frame / clip.frame_rate}});
+                        {"seconds", contact.seconds(clip.frame_rate)}});
   nlohmann::ordered_json steps = nlohmann::ordered_json::array();
   for (const Step& step : clip.steps)
     steps.push_back({{"foot", foot_name(step.foot)},

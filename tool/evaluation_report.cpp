@@ -83,6 +83,22 @@ void print_outputs(const Evaluation& evaluation) {
             "way the found feet carry the hips, over the captured way; 1 is best");
 }
 
+// Contacts against the feet's own, in ms.
+void print_contacts(const Evaluation& evaluation) {
+  if (evaluation.contacts(Heard::step).touched == 0) return;
+  std::printf(
+      "\nContacts, ms late (of the feet's touch, between frames)\n  %-22s %7s %7s %7s %7s %9s %7s "
+      "%7s\n",
+      "", "mean", "SD", "5 %", "95 %", "contacts", "missed", "extra");
+  for (const Heard heard : ways_heard) {
+    const ContactErrors errors = evaluation.contacts(heard);
+    std::printf("  %-22s %7.1f %7.1f %7.1f %7.1f %9d %7d %7d\n",
+                std::string(heard_name(heard)).c_str(), 1000 * errors.mean(),
+                1000 * errors.deviation(), 1000 * errors.quantile(0.05),
+                1000 * errors.quantile(0.95), errors.touched, errors.missed, errors.extra);
+  }
+}
+
 void print_styles(const Evaluation& evaluation) {
   const auto styles = styles_of(evaluation);
   if (styles.empty()) return;
@@ -173,6 +189,22 @@ ordered_json clip_json(const EvaluatedClip& clip, const Evaluation& evaluation) 
             {"synthesised", number(alone.foot_slide(Source::synthesised).over_clips)}}}};
 }
 
+ordered_json contacts_json(const Evaluation& evaluation, const std::string& style = {}) {
+  ordered_json ways;
+  for (const Heard heard : ways_heard) {
+    const ContactErrors errors = evaluation.contacts(heard, style);
+    ways[std::string(heard_name(heard))] = {{"late_ms",
+                                             {{"mean", number(1000 * errors.mean())},
+                                              {"deviation", number(1000 * errors.deviation())},
+                                              {"p5", number(1000 * errors.quantile(0.05))},
+                                              {"p95", number(1000 * errors.quantile(0.95))}}},
+                                            {"contacts", errors.touched},
+                                            {"missed", errors.missed},
+                                            {"extra", errors.extra}};
+  }
+  return ways;
+}
+
 ordered_json confusion_json(const Evaluation& evaluation) {
   ordered_json rows = ordered_json::array();
   for (Eigen::Index row = 0; row < evaluation.confusion.rows(); ++row) {
@@ -197,6 +229,7 @@ void print_table(const Evaluation& evaluation, const Model& model) {
               evaluation.frame_time(1));
   std::printf("  %-22s %d frames, %.0f ms\n", "delay", evaluation.delay_frames,
               delay_ms(evaluation, model));
+  print_contacts(evaluation);
   print_styles(evaluation);
   print_joints(evaluation);
   print_confusion(evaluation);
@@ -208,7 +241,8 @@ void print_json(const Evaluation& evaluation, const Model& model) {
     styles[style] = {{"clips", clips_of(evaluation, style)},
                      {"output_error_deg", errors_json([&](Estimate estimate) {
                         return evaluation.error(estimate, style);
-                      })}};
+                      })},
+                     {"contacts", contacts_json(evaluation, style)}};
   for (std::size_t i = 0; i < evaluation.output_names.size(); ++i) {
     const ordered_json errors = errors_json(
         [&](Estimate estimate) { return evaluation.stream_error(estimate, static_cast<int>(i)); });
@@ -232,6 +266,7 @@ void print_json(const Evaluation& evaluation, const Model& model) {
       {"style_confusion", confusion_json(evaluation)},
       {"output_error_deg",
        errors_json([&](Estimate estimate) { return evaluation.error(estimate); })},
+      {"contacts", contacts_json(evaluation)},
       {"jerk",
        {{"truth", both(evaluation.jerk(Source::truth))},
         {"mapped", both(evaluation.jerk(Source::mapped))},

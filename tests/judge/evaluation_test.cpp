@@ -44,6 +44,38 @@ TEST(Evaluation, each_stage_adds_something) {
   }
 }
 
+TEST(Evaluation, times_contacts_as_a_patch_hears_them) {
+  const Evaluation& all = evaluation();
+  const ContactErrors impulses = all.contacts(Heard::impulse);
+  EXPECT_GT(impulses.touched, 10);
+  EXPECT_EQ(impulses.missed, 0);
+  EXPECT_EQ(impulses.extra, 0);
+  EXPECT_EQ(impulses.late.size(), static_cast<std::size_t>(impulses.touched));
+  EXPECT_LE(std::abs(impulses.mean()), 0.02);
+  EXPECT_LE(impulses.deviation(), 0.03);
+  EXPECT_LE(impulses.quantile(0.05), impulses.quantile(0.95));
+  // The message leaves when its block of audio is done.
+  const double later = all.contacts(Heard::contact).mean() - impulses.mean();
+  EXPECT_GT(later, 0);
+  EXPECT_LE(later, 64.0 / 48000);
+  ContactErrors of_styles;
+  for (const EvaluatedClip& clip : all.clips)
+    of_styles.add(all.contacts(Heard::impulse, clip.style));
+  EXPECT_EQ(of_styles.touched, impulses.touched);
+  EXPECT_NEAR(of_styles.mean(), impulses.mean(), 1e-12);
+  // What is asked to come early is compared with when it was asked for.
+  EvaluationOptions early;
+  early.sender.ahead = 0.1;
+  const Evaluation sooner = evaluate(few_walks_model(), unseen_walks(), {}, early);
+  EXPECT_EQ(sooner.contacts(Heard::impulse).missed, 0);
+  EXPECT_NEAR(sooner.contacts(Heard::impulse).mean(), impulses.mean(), 0.02);
+  // A network that holds frames back makes contacts late by what it takes in the mean.
+  EvaluationOptions uneven;
+  uneven.sender.jitter = 0.03;
+  const Evaluation later_frames = evaluate(few_walks_model(), unseen_walks(), {}, uneven);
+  EXPECT_NEAR(later_frames.contacts(Heard::impulse).mean() - impulses.mean(), 0.015, 0.01);
+}
+
 TEST(Evaluation, means_over_clips_and_frames_are_what_they_say) {
   const Evaluation& all = evaluation();
   double over_clips = 0, sum = 0, frames = 0;

@@ -71,13 +71,15 @@ inline void expect_same(const Joint& a, const Joint& b) {
 }
 
 inline void expect_same(const State& a, const State& b) {
-  const auto& [mean, covariance, stay, duration, weight, style_means, style_covariance,
-               trajectory_means, trajectory_variances] = a;
+  const auto& [mean, covariance, stay, duration, weight, phase, phase_covariance, style_means,
+               style_covariance, trajectory_means, trajectory_variances] = a;
   expect_same(mean, b.mean);
   expect_same(covariance, b.covariance);
   expect_same(stay, b.stay);
   expect_same(duration, b.duration);
   expect_same(weight, b.weight);
+  expect_same(phase, b.phase);
+  expect_same(phase_covariance, b.phase_covariance);
   expect_same(style_means, b.style_means);
   expect_same(style_covariance, b.style_covariance);
   expect_same(trajectory_means, b.trajectory_means);

@@ -27,9 +27,11 @@ CorpusWalk make_walk(const WalkPlan& plan, double frame_rate) {
     walk.clip.translation(frame)[0] = drawn.pose(time, walk.clip.pose(frame));
     walk.phase.push_back(drawn.phase(time));
   }
-  for (const auto& contact : drawn.contacts())
-    walk.contacts.push_back(
-        {static_cast<int>(std::ceil(contact.time * frame_rate - rounding)), contact.foot});
+  for (const auto& contact : drawn.contacts()) {
+    const double touch = contact.time * frame_rate;
+    const int first = static_cast<int>(std::ceil(touch - rounding));
+    walk.contacts.push_back({first, contact.foot, touch - first});
+  }
   return walk;
 }
 

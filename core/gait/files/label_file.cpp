@@ -5,6 +5,7 @@
 #include <cmath>
 #include <cstdint>
 #include <optional>
+#include <utility>
 
 #include "gait/error.h"
 #include "gait/numbers.h"
@@ -18,11 +19,11 @@ constexpr double ticks_per_second = 1e7;  // HTK's 100 ns
 constexpr double longest_time = 1e8;      // three years, in seconds: more is a damaged file
 constexpr double most_labelled_frames = 1e9;
 
-bool is_space(char c) { return c == ' ' || c == '\t' || c == '\r'; }
+bool separates(char c) { return c == ' ' || c == '\t' || c == '\r'; }
 
 std::string_view trimmed(std::string_view text) {
-  while (!text.empty() && is_space(text.front())) text.remove_prefix(1);
-  while (!text.empty() && is_space(text.back())) text.remove_suffix(1);
+  while (!text.empty() && separates(text.front())) text.remove_prefix(1);
+  while (!text.empty() && separates(text.back())) text.remove_suffix(1);
   return text;
 }
 
@@ -97,6 +98,12 @@ void append_seconds(std::string& text, double seconds) {
   text.append(digits.data(), end.ptr);
 }
 
+// The nearest frame, and how many frames later the time is.
+std::pair<int, double> nearest_frame(double frames) {
+  const int nearest = static_cast<int>(std::lround(frames));
+  return {nearest, frames - nearest};
+}
+
 std::optional<Foot> foot_named(std::string_view label) {
   std::string name;
   for (const char c : label) name += c >= 'A' && c <= 'Z' ? static_cast<char>(c - 'A' + 'a') : c;
@@ -159,9 +166,10 @@ void write_labels(const std::vector<LabelSegment>& segments, LabelForm form,
 std::vector<LabelSegment> labels_from_contacts(const std::vector<Contact>& contacts,
                                                double frame_rate) {
   std::vector<LabelSegment> segments;
-  for (const Step& step : steps_between(contacts))
-    segments.push_back(
-        {step.begin / frame_rate, step.end / frame_rate, std::string(foot_name(step.foot))});
+  for (std::size_t i = 0; i + 1 < contacts.size(); ++i)
+    if (contacts[i].foot != contacts[i + 1].foot)
+      segments.push_back({contacts[i].seconds(frame_rate), contacts[i + 1].seconds(frame_rate),
+                          std::string(foot_name(contacts[i].foot))});
   return segments;
 }
 
@@ -185,8 +193,8 @@ std::vector<Contact> contacts_from_labels(std::vector<LabelSegment> segments, do
         " in the step '" + segment.label + "' at " + std::to_string(segment.start) + " s";
     if (!(segment.end * frame_rate < most_labelled_frames))
       throw Error("expected fewer than 1e9 frames" + where + ", found more");
-    const int begin = static_cast<int>(std::lround(segment.start * frame_rate));
-    const int end = static_cast<int>(std::lround(segment.end * frame_rate));
+    const auto [begin, begin_offset] = nearest_frame(segment.start * frame_rate);
+    const auto [end, end_offset] = nearest_frame(segment.end * frame_rate);
     if (end <= begin) throw Error("expected at least one frame" + where + ", found none");
     if (follows && begin < contacts.back().frame)
       throw Error("expected steps one after the other, found an overlap" + where);
@@ -194,9 +202,9 @@ std::vector<Contact> contacts_from_labels(std::vector<LabelSegment> segments, do
       if (contacts.back().foot != *foot)
         throw Error("expected right and left steps in turn, found one foot twice" + where);
     } else {
-      contacts.push_back({begin, *foot});
+      contacts.push_back({begin, *foot, begin_offset});
     }
-    contacts.push_back({end, other(*foot)});
+    contacts.push_back({end, other(*foot), end_offset});
     follows = true;
   }
   return contacts;

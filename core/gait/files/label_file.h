@@ -52,8 +52,8 @@ std::vector<LabelSegment> labels_from(std::vector<LabelSegment> segments, double
 
 // Contacts for labels: one at the start of each step, and one of the other foot at the end of a
 // step without a successor. Labels of steps are right, left, r and l in any case; others are
-// ignored. Times are rounded to the nearest frame. Throws Error, with the time, when steps overlap
-// or a foot steps twice in succession.
+// ignored. A contact is at the frame nearest to its time. Throws Error, with the time, when steps
+// overlap or a foot steps twice in succession.
 std::vector<Contact> contacts_from_labels(std::vector<LabelSegment> segments, double frame_rate);
 
 }  // namespace gait

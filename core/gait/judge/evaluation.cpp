@@ -46,8 +46,8 @@ double mean_jerk(const Eigen::MatrixXd& outputs, int frame, const std::vector<bo
 class Evaluator {
  public:
   Evaluator(std::shared_ptr<const Model> model, const PlaySettings& settings,
-            const RoleTable& roles)
-      : model_(std::move(model)), settings_(settings), role_table_(roles), played_(model_) {
+            const EvaluationOptions& options)
+      : model_(std::move(model)), settings_(settings), options_(options), played_(model_) {
     if (!model_->body)
       throw Error("model " + model_->name + ": expected a model of a body to evaluate on clips");
     const Body& body = *model_->body;
@@ -68,7 +68,7 @@ class Evaluator {
     const Clip clip = resampled(walk.clip, model_->frame_rate);
     const Body& body = *model_->body;
     const auto matched = match_joints(body, clip.skeleton, clip.name);
-    const JointRoles clip_roles = find_roles(clip, role_table_);
+    const JointRoles clip_roles = find_roles(clip, options_.roles);
     WalkTrack track = follow_walk(clip, clip_roles);
     if (!walk.contacts.empty())
       track.contacts =
@@ -86,6 +86,12 @@ class Evaluator {
     result.style = walk.style;
     compare(truth, result);
     compare_roots(clip, clip_roles, matched, track, poses, result);
+    // Contacts at the clip's own rate: between its frames they are surest.
+    const bool given = !walk.contacts.empty();
+    const WalkTrack own = given ? WalkTrack{} : follow_walk(walk.clip, clip_roles);
+    result.timing =
+        contact_timing(played_, settings_, walk.clip, matched, given ? walk.contacts : own.contacts,
+                       track.cycle_seconds, options_.sender);
     evaluation_.clips.push_back(std::move(result));
   }
 
@@ -186,7 +192,7 @@ class Evaluator {
 
   std::shared_ptr<const Model> model_;
   PlaySettings settings_;
-  RoleTable role_table_;
+  EvaluationOptions options_;
   PlayModel played_;
   Evaluation evaluation_;
   CalibrationError calibration_;
@@ -195,9 +201,9 @@ class Evaluator {
 }  // namespace
 
 Evaluation evaluate(std::shared_ptr<const Model> model, const std::vector<Walk>& walks,
-                    const PlaySettings& settings, const RoleTable& roles,
+                    const PlaySettings& settings, const EvaluationOptions& options,
                     const std::function<void(double)>& progress) {
-  Evaluator evaluator(std::move(model), settings, roles);
+  Evaluator evaluator(std::move(model), settings, options);
   for (std::size_t i = 0; i < walks.size(); ++i) {
     if (progress) progress(static_cast<double>(i) / static_cast<double>(walks.size()));
     evaluator.add(walks[i]);

@@ -10,6 +10,7 @@
 #include <string>
 #include <vector>
 
+#include "gait/judge/contact_timing.h"
 #include "gait/learn/walk_sequences.h"
 #include "gait/play/stream_reconstructor.h"
 
@@ -41,6 +42,7 @@ struct EvaluatedClip {
   int stances = 0;
   // From the first to the last contact, metres; 0 where the clip did not travel.
   double path_captured = 0, path_synthesised = 0;
+  ContactTiming timing;
 };
 
 // Whose movement is meant where the truth is measured, too.
@@ -67,19 +69,27 @@ struct Evaluation {
   Means error(Estimate estimate, const std::string& style = {}) const;
   Means stream_error(Estimate estimate, int stream) const;  // angle
   Means step_accuracy() const;                              // share of frames
-  Means style_accuracy() const;              // share of frames of the clips with a known style
-  double style_accuracy_of_clips() const;    // share of clips; NaN without known styles
-  Means jerk(Source source) const;           // of the counted streams
-  Means foot_slide(Source source) const;     // per stance; of truth or synthesised
-  Means path_ratio() const;                  // root's path from the feet over the captured path
+  Means style_accuracy() const;            // share of frames of the clips with a known style
+  double style_accuracy_of_clips() const;  // share of clips; NaN without known styles
+  Means jerk(Source source) const;         // of the counted streams
+  Means foot_slide(Source source) const;   // per stance; of truth or synthesised
+  Means path_ratio() const;                // root's path from the feet over the captured path
+  // Contacts of all clips, or of those in one style.
+  ContactErrors contacts(Heard heard, const std::string& style = {}) const;
   double frame_time(double quantile) const;  // microseconds; quantile 0 to 1
+};
+
+// What is asked beside how the model is played.
+struct EvaluationOptions {
+  SenderManner sender;  // how frames arrive where contacts are timed
+  RoleTable roles;
 };
 
 // Plays each walk through the model and compares. Walks that have too few steps are skipped, saying
 // so. `progress` is called before each walk with the share done; what it throws ends the work.
 // Throws Error when a walk lacks the model's joints or when nothing is left.
 Evaluation evaluate(std::shared_ptr<const Model> model, const std::vector<Walk>& walks,
-                    const PlaySettings& settings, const RoleTable& roles = {},
+                    const PlaySettings& settings, const EvaluationOptions& options = {},
                     const std::function<void(double)>& progress = {});
 
 }  // namespace gait

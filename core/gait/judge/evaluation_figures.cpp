@@ -94,6 +94,13 @@ Means Evaluation::path_ratio() const {
   return averaged(clips, &EvaluatedClip::path_synthesised, &EvaluatedClip::path_captured);
 }
 
+ContactErrors Evaluation::contacts(Heard heard, const std::string& style) const {
+  ContactErrors all;
+  for (const EvaluatedClip& clip : clips)
+    if (style.empty() || clip.style == style) all.add(clip.timing[static_cast<std::size_t>(heard)]);
+  return all;
+}
+
 double Evaluation::frame_time(double quantile) const {
   if (frame_microseconds.empty()) return none;
   const auto last = static_cast<double>(frame_microseconds.size() - 1);

@@ -11,6 +11,7 @@
 #include "gait/judge/calibration.h"
 #include "gait/judge/played_sequence.h"
 #include "gait/learn/parallel.h"
+#include "gait/learn/phase_statistics.h"
 
 namespace gait {
 
@@ -275,6 +276,8 @@ class Selection {
   Selected finish(double regularisation, const char* by) {
     set_states(learnt_.model, learnt_.table, learnt_.states.statistics, learnt_.states.stay,
                learnt_.states.target, regularisation, options_.learning.placement);
+    set_phases(learnt_.model, task_.sequences, learnt_.observed, learnt_.table,
+               learnt_.states.alignments, regularisation);
     learnt_.model.training.regularisation = regularisation;
     learnt_.model.training.regularisation_chosen_by = by;
     selected_.model = std::move(learnt_.model);

@@ -10,6 +10,7 @@ namespace gait {
 struct Segment {
   int begin = 0, end = 0;  // frames [begin, end)
   int label = 0;           // index into the labels
+  double offset = 0;       // frames from `begin` to where the label begins, -1 to 0.5
 };
 
 struct Sequence {

@@ -4,6 +4,7 @@
 #include <cmath>
 
 #include "gait/error.h"
+#include "gait/learn/phase_statistics.h"
 #include "gait/learn/trajectory_statistics.h"
 
 namespace gait {
@@ -130,6 +131,8 @@ Learnt learn(const LearningTask& task, const LearningOptions& options) {
   set_states(model, learnt.table, learnt.states.statistics, learnt.states.stay,
              learnt.states.target, options.hmm.regularisation, options.placement);
   set_trajectories(model, task.sequences, learnt.observed, learnt.table, learnt.states.alignments);
+  set_phases(model, task.sequences, learnt.observed, learnt.table, learnt.states.alignments,
+             options.hmm.regularisation);
   model.training.regularisation = options.hmm.regularisation;
   model.training.log_likelihood = learnt.states.log_likelihood;
   model.training.penalised_log_likelihood = learnt.states.penalised_log_likelihood;

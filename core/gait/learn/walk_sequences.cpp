@@ -97,7 +97,7 @@ std::vector<Segment> segments_of(const std::vector<Contact>& contacts) {
   std::vector<Segment> run, longest;
   for (const Step& step : steps_between(contacts)) {
     if (!run.empty() && run.back().end != step.begin) run.clear();
-    run.push_back({step.begin, step.end, step.foot == Foot::right ? 0 : 1});
+    run.push_back({step.begin, step.end, step.foot == Foot::right ? 0 : 1, step.offset});
     if (run.size() > longest.size()) longest = run;
   }
   return longest;
@@ -196,8 +196,11 @@ Sequence walk_sequence(const Body& body, const BodyPoses& poses,
 
 std::vector<Contact> contacts_at(const std::vector<Contact>& contacts, double ratio) {
   std::vector<Contact> scaled = contacts;
-  for (Contact& contact : scaled)
-    contact.frame = static_cast<int>(std::lround(contact.frame * ratio));
+  for (Contact& contact : scaled) {
+    const double touch = (contact.frame + contact.offset) * ratio;
+    contact.frame = static_cast<int>(std::lround(touch));
+    contact.offset = touch - contact.frame;
+  }
   return scaled;
 }
 

@@ -37,9 +37,14 @@ struct State {
   // Gaussian over z = [x; y], scaled; x has model.input.size() entries, y model.output.size().
   Eigen::VectorXd mean;
   Eigen::MatrixXd covariance;
-  double stay = 0.5;                 // probability of staying for another frame
-  double duration = 0;               // mean time spent here, seconds
-  double weight = 0;                 // how many frames it was learnt from
+  double stay = 0.5;    // probability of staying for another frame
+  double duration = 0;  // mean time spent here, seconds
+  double weight = 0;    // how many frames it was learnt from
+  // Where labels follow each other in a ring: the phase of the cycle, 0 to 1, that the body was at
+  // `input.mean_age()` frames before a frame of this state, and its covariance with x, in cycles.
+  // Empty elsewhere, and in models of before there were any.
+  double phase = 0;
+  Eigen::VectorXd phase_covariance{};
   Eigen::MatrixXd style_means;       // z by styles: per-style means, scaled
   Eigen::MatrixXd style_covariance;  // of x within styles, shared by all styles
   // What a walk without input follows (T14 §4.3), unscaled: the inputs' values that move, then the
@@ -126,6 +131,11 @@ struct Model {
 
   // Values of a frame that move, inputs' then outputs': what trajectory_means speak of.
   int trajectory_values() const { return input.statics() + output.statics(); }
+  // Whether its states say where in a cycle they are.
+  bool has_phases() const {
+    return !labels.empty() && !labels.front().states.empty() &&
+           labels.front().states.front().phase_covariance.size() > 0;
+  }
   int states() const {
     int count = 0;
     for (const Label& label : labels) count += static_cast<int>(label.states.size());

@@ -83,6 +83,9 @@ void check_state(const State& state, const Model& model, const std::string& fiel
   covariances.expect(state.covariance, field + ".covariance");
   covariances.expect(state.style_covariance, field + ".style_covariance");
   check_trajectory(state, model, field);
+  expect_values(state.phase_covariance, model.has_phases() ? inputs : 0, 1,
+                field + ".phase_covariance");
+  expect_within(state.phase, 0, 1, field + ".phase");
   if (!(state.stay > 0 && state.stay < 1))
     fail(field + ".stay", "a probability between 0 and 1, found " + std::to_string(state.stay));
   expect_seconds(state.duration, field + ".duration");

@@ -66,6 +66,13 @@ class Walk {
   int joints_, frames_;
 };
 
+// Where between its neighbours a parabola through three values has its maximum, the middle one
+// being the largest: -0.5 to 0.5 of their distance.
+double between_frames(double before, double largest, double after) {
+  const double curvature = before - 2 * largest + after;
+  return curvature < 0 ? std::clamp(0.5 * (before - after) / curvature, -0.5, 0.5) : 0;
+}
+
 // The foot ahead changes with each step: between two changes lies one contact, where the leading
 // foot is farthest ahead of the hips. Hysteresis keeps a shuffle from counting.
 std::vector<Contact> contacts_along(const Walk& walk, const std::vector<double>& heading,
@@ -91,7 +98,9 @@ std::vector<Contact> contacts_along(const Walk& walk, const std::vector<double>&
     for (int frame = begin; frame < end; ++frame)
       if (walk.ahead(frame, foot, heading) > walk.ahead(best, foot, heading)) best = frame;
     // A maximum at the clip's edge is where the capture began or stopped, not a contact.
-    if (best != 0 && best != frames - 1) leads.push_back({best, foot});
+    if (best == 0 || best == frames - 1) return;
+    const auto ahead = [&](int frame) { return walk.ahead(frame, foot, heading); };
+    leads.push_back({best, foot, between_frames(ahead(best - 1), ahead(best), ahead(best + 1))});
   };
   for (int frame = 0; frame < frames; ++frame) {
     const int now = right_lead[frame] > threshold ? 1 : right_lead[frame] < -threshold ? -1 : 0;

@@ -1,5 +1,6 @@
 // Contacts of a captured walk, found from the whole clip (Zeni et al. 2008): a foot touches the
-// ground when it is farthest ahead of the hips along the heading.
+// ground when it is farthest ahead of the hips along the heading. Between frames a parabola through
+// the farthest place and its neighbours says when.
 #pragma once
 
 #include <vector>

@@ -9,6 +9,7 @@
 
 #include <Eigen/Core>
 #include <algorithm>
+#include <numeric>
 #include <span>
 #include <vector>
 
@@ -22,6 +23,12 @@ struct InputLayout {
 
   int statics() const { return static_cast<int>(modelled.size()); }
   int size() const { return statics() * (1 + static_cast<int>(lags.size())); }
+  // A difference over d frames speaks of the moment d/2 frames ago: how many frames ago all entries
+  // of x speak of in the mean.
+  double mean_age() const {
+    return std::accumulate(lags.begin(), lags.end(), 0.0) /
+           (2.0 * static_cast<double>(1 + lags.size()));
+  }
   // Number of leading entries of x that are known when `past` frames came before this one: the
   // statics, and the differences to frames that exist.
   int known(int past) const {

@@ -6,7 +6,8 @@ std::vector<Step> steps_between(const std::vector<Contact>& contacts) {
   std::vector<Step> steps;
   for (std::size_t i = 0; i + 1 < contacts.size(); ++i)
     if (contacts[i].foot != contacts[i + 1].foot)
-      steps.push_back({contacts[i].frame, contacts[i + 1].frame, contacts[i].foot});
+      steps.push_back(
+          {contacts[i].frame, contacts[i + 1].frame, contacts[i].foot, contacts[i].offset});
   return steps;
 }
 

@@ -15,8 +15,11 @@ constexpr std::string_view foot_name(Foot foot) { return foot == Foot::right ? "
 constexpr Foot other(Foot foot) { return foot == Foot::right ? Foot::left : Foot::right; }
 
 struct Contact {
-  int frame = 0;  // first frame at which the foot touches
+  int frame = 0;  // the first frame at which the foot touches, or the nearest one
   Foot foot = Foot::right;
+  double offset = 0;  // frames from there to the touch itself, between frames: -1 to 0.5
+
+  double seconds(double frame_rate) const { return (frame + offset) / frame_rate; }
 
   friend bool operator==(const Contact&, const Contact&) = default;
 };
@@ -24,6 +27,7 @@ struct Contact {
 struct Step {
   int begin = 0, end = 0;  // frames [begin, end)
   Foot foot = Foot::right;
+  double offset = 0;  // of the contact that starts it
 };
 
 struct Cycle {

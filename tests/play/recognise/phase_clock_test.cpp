@@ -151,6 +151,43 @@ TEST(PhaseClock, estimates_that_are_known_to_be_late_leave_the_ramp_on_time) {
   EXPECT_LE(steepest_step(record, 2, 14), 3);
 }
 
+TEST(PhaseClock, runs_so_far_ahead_of_the_walk_as_it_is_set_without_a_jump) {
+  for (const double ahead : {0.05, 0.1, 0.2}) {
+    const double frequency = 0.9;
+    const KnownWalk walk({{0, frequency}}), sooner({{-ahead, frequency}});
+    auto events = estimates_of(walk, 0, 14, {.noise = 0.01});
+    events.push_back({6, [ahead](PhaseClock& clock) { clock.set_ahead(ahead); }});
+    PhaseClock clock;
+    const StageRecord record = play(clock, events, 14);
+    EXPECT_LE(rms_error(record, walk, 3, 6), 0.02);
+    EXPECT_LE(rms_error(record, sooner, 8, 14), 0.02) << ahead;
+    const double steepest = steepest_step(record, 3, 14);
+    EXPECT_GT(steepest, 0);
+    EXPECT_LE(steepest, 3);
+    PhaseClock next;
+    next.take_over(clock);
+    EXPECT_NEAR(next.phase(), clock.phase(), 1e-6);
+    EXPECT_EQ(next.ahead(), ahead);
+  }
+}
+
+TEST(PhaseClock, taps_and_contacts_are_followed_ahead_too) {
+  for (const bool taps : {true, false}) {
+    PhaseClock clock;
+    clock.set_ahead(0.1);
+    std::vector<StageEvent> events;
+    for (int i = 0; i < 24; ++i)
+      events.push_back(
+          {0.5 * i, [taps, i](PhaseClock& to) { taps ? to.tap() : to.observe_contact(i % 2); }});
+    const StageRecord record = play(clock, events, 11.9);
+    expect_right_and_left_in_turn(record);
+    for (const auto& contact : record.contacts) {
+      if (contact.time < 5) continue;
+      EXPECT_NEAR(std::remainder(contact.time + 0.1, 0.5), 0, 0.02) << contact.time;
+    }
+  }
+}
+
 TEST(PhaseClock, finds_the_walk_again_however_far_it_is_off_without_running_back) {
   const double frequency = 0.9;
   for (const double off : {-0.4, -0.25, 0.25, 0.4, 0.5}) {

@@ -97,12 +97,19 @@ void PhaseClock::set_walking(bool walking) noexcept {
   doubt();
 }
 
+void PhaseClock::set_ahead(double seconds) noexcept {
+  if (std::isfinite(seconds)) ahead_ = std::clamp(seconds, 0.0, 1.0);
+}
+
 void PhaseClock::take_over(const PhaseClock& other) noexcept {
   reset();
-  if (other.waiting_) return;
-  set_walking(true);
-  observe(other.phase());
-  set_walking(other.walking_);
+  ahead_ = 0;  // that phase is ahead already
+  if (!other.waiting_) {
+    set_walking(true);
+    observe(other.phase());
+    set_walking(other.walking_);
+  }
+  ahead_ = other.ahead_;
 }
 
 // Whether what is observed counts: while standing it does not, unless nobody has walked yet.
@@ -164,20 +171,22 @@ void PhaseClock::correct(double phase, double deviation, double late) noexcept {
 
 void PhaseClock::observe(double phase, double weight, double late) noexcept {
   if (!std::isfinite(phase) || !std::isfinite(late) || !(weight > 0) || !hears()) return;
-  correct(phase, settings_.noise / (pull_ * std::sqrt(std::min(weight, 1.0))), std::max(0.0, late));
+  correct(phase, settings_.noise / (pull_ * std::sqrt(std::min(weight, 1.0))),
+          std::max(0.0, late) + ahead_);
 }
 
 void PhaseClock::observe_contact(int step, double late) noexcept {
   if (step < 0 || step >= settings_.steps || !std::isfinite(late)) return;
-  touch(static_cast<double>(step) / settings_.steps, std::max(0.0, late));
+  touch(static_cast<double>(step) / settings_.steps, std::max(0.0, late) + ahead_);
 }
 
 void PhaseClock::tap() noexcept {
   const double step = 1.0 / settings_.steps;
   // The first of a row of taps means the nearest step, each other the step after the last.
   const bool goes_on = contact_time_ >= 0 && (time_ - contact_time_) * settings_.slowest < step;
-  const double phase = goes_on ? contact_phase_ + step : std::round((ramp_ + lead_) / step) * step;
-  touch(phase - std::floor(phase), 0);
+  const double now = ramp_ + lead_ - ahead_ * frequency_;  // of whoever taps
+  const double phase = goes_on ? contact_phase_ + step : std::round(now / step) * step;
+  touch(phase - std::floor(phase), ahead_);
 }
 
 void PhaseClock::touch(double phase, double late) noexcept {
@@ -305,7 +314,7 @@ void PhaseClock::advance(double seconds) noexcept {
 float PhaseClock::phase() const noexcept { return std::min(static_cast<float>(ramp_), below_one); }
 
 float PhaseClock::cadence() const noexcept {
-  return static_cast<float>(going_ * frequency_ * settings_.steps);
+  return static_cast<float>(frequency() * settings_.steps);
 }
 
 }  // namespace gait

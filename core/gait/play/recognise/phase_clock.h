@@ -23,7 +23,7 @@ struct PhaseClockSettings {
   double fastest = 4;            // cycles/s
   double noise = 0.04;           // deviation of an estimate, cycles
   double contact_noise = 0.012;  // deviation of a contact, cycles
-  double wander = 0.2;           // share by which frequency changes over one cycle
+  double wander = 0.1;           // share by which frequency changes over one cycle
 };
 
 class PhaseClock {
@@ -47,6 +47,10 @@ class PhaseClock {
   // Not walking: the frequency falls to zero and the phase stands, whatever is observed. Walking
   // again: on from there.
   void set_walking(bool walking) noexcept;
+  // Runs so many seconds ahead of the walk, 0 to 1: phase and contacts come early, to make up for
+  // what sound and network take. It changes without a jump.
+  void set_ahead(double seconds) noexcept;
+  double ahead() const noexcept { return ahead_; }
   // How hard estimates pull: 1 as tuned, 2 follows twice as fast, 0 not at all. At most 10.
   void set_pull(double pull) noexcept;
 
@@ -56,8 +60,8 @@ class PhaseClock {
     int step = 0;    // 0 right, 1 left
   };
 
-  // Goes on as another clock (of another model) did: at its phase, and standing or waiting for a
-  // first estimate where that one does.
+  // Goes on as another clock (of another model) did: at its phase, as far ahead, and standing or
+  // waiting for a first estimate where that one does.
   void take_over(const PhaseClock& other) noexcept;
 
   // Moves on by a block of audio and fills it with the phase, a line for 2 ms at once.
@@ -74,6 +78,7 @@ class PhaseClock {
 
   float phase() const noexcept;  // of the ramp, 0 to 1 with 1 left out
   float cadence() const noexcept;
+  double frequency() const noexcept { return going_ * frequency_; }  // cycles per second
   bool walking() const noexcept { return walking_; }
   // As at the beginning: standing until somebody walks.
   void reset() noexcept;
@@ -101,7 +106,7 @@ class PhaseClock {
   void forget_frequency() noexcept;
 
   PhaseClockSettings settings_;
-  double pull_ = 1;
+  double pull_ = 1, ahead_ = 0;
   bool walking_ = false, moved_ = false;
   bool waiting_ = true;  // nobody has walked yet: the first estimate starts it
 

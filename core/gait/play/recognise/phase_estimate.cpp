@@ -28,14 +28,28 @@ PhaseEstimator::PhaseEstimator(const Model& model) : cycles_(label_cycles(model)
       before += state.duration;
     }
   }
-  double halves = 0;
-  for (const int lag : model.input.lags) halves += 0.5 * lag / model.frame_rate;
-  age_ = static_cast<float>(halves / static_cast<double>(1 + model.input.lags.size()));
+  age_ = static_cast<float>(model.input.mean_age() / model.frame_rate);
 }
 
 PhaseEstimate PhaseEstimator::estimate(const LabelCycle& cycle, float phase,
                                        float certainty) const noexcept {
   return {wrapped(phase), certainty, wrapped(phase - cycle.frequency * age_), age_};
+}
+
+// The circular mean of the states' phases; `phase_of` says each by its number in the span.
+PhaseEstimator::Mean PhaseEstimator::mean_of(std::span<const WeightedState> states,
+                                             auto phase_of) const noexcept {
+  constexpr float turn = 2 * std::numbers::pi_v<float>;
+  const int ring = cycles_[label_of_[states.front().state]].ring;
+  float x = 0, y = 0, total = 0;
+  for (std::size_t i = 0; i < states.size(); ++i) {
+    total += states[i].weight;
+    // Phases of another ring say nothing about this one.
+    if (cycles_[label_of_[states[i].state]].ring != ring) continue;
+    x += states[i].weight * std::cos(turn * phase_of(i));
+    y += states[i].weight * std::sin(turn * phase_of(i));
+  }
+  return {std::atan2(y, x) / turn, std::min(1.0f, std::hypot(x, y) / total)};
 }
 
 PhaseEstimate PhaseEstimator::of(std::span<const WeightedState> states,
@@ -47,16 +61,16 @@ PhaseEstimate PhaseEstimator::of(std::span<const WeightedState> states,
                     (static_cast<float>(cycle.index) + std::min(progress, 0.999f)) /
                         static_cast<float>(cycle.labels),
                     1);
-  constexpr float turn = 2 * std::numbers::pi_v<float>;
-  float x = 0, y = 0, total = 0;
-  for (const WeightedState& state : states) {
-    total += state.weight;
-    // Phases of another ring say nothing about this one.
-    if (cycles_[label_of_[state.state]].ring != cycle.ring) continue;
-    x += state.weight * std::cos(turn * middle_[state.state]);
-    y += state.weight * std::sin(turn * middle_[state.state]);
-  }
-  return estimate(cycle, std::atan2(y, x) / turn, std::min(1.0f, std::hypot(x, y) / total));
+  const Mean mean = mean_of(states, [&](std::size_t i) { return middle_[states[i].state]; });
+  return estimate(cycle, mean.phase, mean.certainty);
+}
+
+PhaseEstimate PhaseEstimator::of(std::span<const WeightedState> states, float progress,
+                                 std::span<const float> seen) const noexcept {
+  PhaseEstimate estimate = of(states, progress);
+  if (!states.empty())
+    estimate.seen = wrapped(mean_of(states, [&](auto i) { return seen[i]; }).phase);
+  return estimate;
 }
 
 }  // namespace gait

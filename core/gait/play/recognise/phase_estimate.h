@@ -8,7 +8,8 @@
 // in the cycle, and who walks slower too late: by (frequency - mean frequency) times the mean age
 // of what is observed. (Measured on held-out walks: 40 to 85 ms; by this reckoning 67 ms.) An
 // estimate therefore also says which phase was seen at that earlier moment, which is right at any
-// cadence.
+// cadence. Models that learnt how the phase goes with the observation say it from that
+// (State::phase); it is half as far off (docs/design.md, Phase).
 #pragma once
 
 #include <span>
@@ -34,10 +35,18 @@ class PhaseEstimator {
   // `states`: of a decision, the likeliest first; `progress`: through the first one's label. One
   // state speaks by its progress; several by the circular mean of where they lie in the cycle.
   PhaseEstimate of(std::span<const WeightedState> states, float progress) const noexcept;
+  // The same, with what was seen from the observation itself: `seen`, one phase per state, in
+  // cycles.
+  PhaseEstimate of(std::span<const WeightedState> states, float progress,
+                   std::span<const float> seen) const noexcept;
 
   const LabelCycle& cycle(int label) const noexcept { return cycles_[label]; }
 
  private:
+  struct Mean {
+    float phase = 0, certainty = 0;
+  };
+  Mean mean_of(std::span<const WeightedState> states, auto phase_of) const noexcept;
   PhaseEstimate estimate(const LabelCycle& cycle, float phase, float certainty) const noexcept;
 
   std::vector<LabelCycle> cycles_;  // per label

@@ -43,6 +43,7 @@ Recogniser::Recogniser(const PlayModel& played, const RecogniserSettings& settin
       emissions_(tables_, model_->input),
       decoder_(decoder_for(*model_, settings, tables_)),
       phase_(*model_),
+      late_whitening_(model_->input.size()),
       clock_(clock_settings_of(*model_, phase_)),
       cyclic_(phase_.cycle(0).labels == static_cast<int>(model_->labels.size())),
       styles_(*model_, tables_),
@@ -52,7 +53,8 @@ Recogniser::Recogniser(const PlayModel& played, const RecogniserSettings& settin
       returned_(values_.size(), history_of(*model_) + 1),
       wanted_(values_.size(), false),
       masked_(values_.size(), false),
-      states_(Decoder::most_weighted) {
+      states_(Decoder::most_weighted),
+      seen_phases_(states_.size()) {
   set_bounds();
   clock_.set_walking(true);  // frames are a walk until standing shows
   if (settings.style_memory) styles_.set_memory(static_cast<float>(*settings.style_memory));
@@ -188,8 +190,25 @@ void Recogniser::decide(int back, int state, std::span<const WeightedState> stat
   follow_phase();
 }
 
+// The phase that the decided states see in the observation.
+PhaseEstimate Recogniser::phase_seen() noexcept {
+  constexpr float farthest = 0.15f;  // cycles from a state's own phase: what it saw in training
+  if (current_->states.front().phase_gain.size() == 0)
+    return phase_.of(states(), decision_.progress);
+  const bool late = !whitened();
+  if (late) late_whitening_.take(*current_, scaled());
+  const int count = current_->depths[current_->depth_of(known(), model_->input)];
+  for (int i = 0; i < state_count_; ++i) {
+    const PlayedState& state = current_->states[states_[i].state];
+    const auto e = late ? late_whitening_.innovation(state, count) : innovation(states_[i].state);
+    seen_phases_[i] = state.phase + std::clamp(state.phase_gain.head(count).dot(e.head(count)),
+                                               -farthest, farthest);
+  }
+  return phase_.of(states(), decision_.progress, seen_phases_);
+}
+
 void Recogniser::follow_phase() noexcept {
-  estimate_ = phase_.of(states(), decision_.progress);
+  estimate_ = phase_seen();
   decision_.phase = estimate_.phase;
   decision_.cadence = phase_.cycle(decision_.label).cadence();
   if (!cyclic_) return;

@@ -117,6 +117,7 @@ class Recogniser {
   // Decides about the frame taken `back` frames ago.
   void decide(int back, int state, std::span<const WeightedState> states, float progress) noexcept;
   void follow_phase() noexcept;
+  PhaseEstimate phase_seen() noexcept;
   const Held& held(int back) const noexcept;
 
   std::shared_ptr<const Model> model_;
@@ -125,6 +126,7 @@ class Recogniser {
   Emissions emissions_;
   Decoder decoder_;
   PhaseEstimator phase_;
+  Whitening late_whitening_;  // of a frame decided later
   PhaseClock clock_;
   bool cyclic_;  // the labels form a cycle that a clock can follow
   StyleRecogniser styles_;
@@ -146,6 +148,7 @@ class Recogniser {
   Decision decision_;
   std::vector<WeightedState> states_;
   int state_count_ = 0;
+  std::vector<float> seen_phases_;  // scratch: one per decided state
   PhaseEstimate estimate_;
 };
 

@@ -41,6 +41,10 @@ PlayedState played_state(const State& state, const StateTables& tables) {
   // G = Sigma_yx L^-T, in one product
   const Eigen::MatrixXd gain = state.covariance(outputs, kept) * inverse.transpose();
   played.gain = PackedMap(gain, Eigen::VectorXd::Zero(tables.outputs), PackedMap::Shape::full);
+  if (state.phase_covariance.size() > 0) {
+    played.phase = static_cast<float>(state.phase);
+    played.phase_gain = (inverse * state.phase_covariance(kept)).cast<float>();
+  }
   played.output_mean = state.mean.tail(tables.outputs).cast<float>();
   played.output_variance = state.covariance.diagonal().tail(tables.outputs).cast<float>();
 

@@ -24,6 +24,10 @@ struct PlayedState {
   Eigen::VectorXf output_mean, output_variance;  // of y, scaled
   Eigen::MatrixXf explained_variance;            // diagonal of G G^T, y by depth
   std::vector<PackedMap> style_scores;           // per depth: w^T x + b, styles by kept entries
+  // The phase that a frame of the state speaks of is phase + phase_gain . e, in cycles; no gain in
+  // models that do not say.
+  float phase = 0;
+  Eigen::VectorXf phase_gain;
   float log_stay = 0, log_leave = 0;
   float mean_duration = 0;  // seconds
   float before = 0;         // mean durations of the label's states before this, seconds
