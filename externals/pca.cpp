@@ -15,16 +15,21 @@ constexpr double longest_jump = 60;  // seconds: what `advance` takes at once
 
 // What plays a model here, beside the walker.
 struct Walk {
-  Walk(const Model& model, CycleWalking::TakeOver by, const CycleSpace& space)
+  Walk(const SharedModel& played, CycleWalking::TakeOver by, const CycleSpace& in)
       : take_over(std::move(by)),
-        values(*model.body),
-        projector(space, *model.body),
-        own(space, *model.body),
-        given(3 * model.body->references.size(), 0.0f) {}
+        model(played->model),
+        space(in),
+        values(*model->body),
+        given(3 * model->body->references.size(), 0.0f) {}
+  // Few have another walk projected: that takes memory with its first message.
+  CycleProjector& projector() { return projected ? *projected : projected.emplace(model, space); }
+
   CycleWalking::TakeOver take_over;  // changes to the walker; empty once that is done
+  std::shared_ptr<const Model> model;
+  const CycleSpace& space;
   PoseValues values;
-  CycleProjector projector, own;
   std::vector<float> given;
+  std::optional<CycleProjector> projected, own;  // own: of a walker that does not know its scores
 };
 
 class Pca final : public ModelPlayer<Walk> {
@@ -64,7 +69,9 @@ class Pca final : public ModelPlayer<Walk> {
   }
   void reset(const Arguments&) {
     if (model()) walking_->reset();
-    if (playing()) playing()->projector.reset(), playing()->own.reset();
+    if (playing())
+      for (auto* projector : {&playing()->projected, &playing()->own})
+        if (*projector) (*projector)->reset();
     leg_sent_ = 0;
   }
   void dump(const Arguments&) {
@@ -79,7 +86,7 @@ class Pca final : public ModelPlayer<Walk> {
   void cold(const Arguments& arguments) {
     if (arguments.selector() == "pose") {
       if (!ready_for_frame()) return;
-      if (!arguments.read(playing()->given) || !playing()->projector.add(playing()->given))
+      if (!arguments.read(playing()->given) || !playing()->projector().add(playing()->given))
         slow_error().say([&] {
           return "pose: expected " + std::to_string(playing()->given.size()) + " numbers, got " +
                  std::to_string(arguments.size());
@@ -87,8 +94,8 @@ class Pca final : public ModelPlayer<Walk> {
     } else if (arguments.selector() == "contact") {
       const std::string foot = arguments.only().symbol(0);
       if (foot != "right" && foot != "left") arguments.fail_at(0, "right or left");
-      if (playing() && playing()->projector.contact(foot == "right" ? Foot::right : Foot::left))
-        info_.add(playing()->projector.scores()).send("projected");
+      if (playing() && playing()->projector().contact(foot == "right" ? Foot::right : Foot::left))
+        info_.add(playing()->projector().scores()).send("projected");
     } else {
       arguments.fail("no such message at the right inlet");
     }
@@ -98,14 +105,15 @@ class Pca final : public ModelPlayer<Walk> {
   Make make() override {
     return [prepare = walking_->prepare(), space = walking_->space_of()](const SharedModel& model) {
       auto take_over = prepare(model);
-      return std::make_shared<Walk>(*model->model, std::move(take_over), space(*model->model));
+      return std::make_shared<Walk>(model, std::move(take_over), space(*model->model));
     };
   }
   void take(const SharedModel& model, Walk& fresh) override {
     fresh.take_over();
     fresh.take_over = nullptr;
+    if (walking_->scores().empty()) fresh.own.emplace(fresh.model, fresh.space);
     pose_.reserve(static_cast<int>(fresh.given.size()));
-    info_.reserve(static_cast<int>(fresh.own.scores().size()));
+    info_.reserve(fresh.space.kept());
     clock_.set_period(1000 / model->model->frame_rate);
     leg_sent_ = 0;
   }
@@ -136,16 +144,15 @@ class Pca final : public ModelPlayer<Walk> {
   void move(double seconds) {
     const Perf::Frame frame(perf());
     walking_->advance(seconds);
-    // A walker that knows its scores need not be projected.
-    const bool known = !walking_->scores().empty();
-    if (!known) playing()->own.add(playing()->values.of(walking_->pose()));
+    const bool known = !playing()->own;
+    if (!known) playing()->own->add(playing()->values.of(walking_->pose()));
     const auto contact = walking_->contact();
     if (!contact) return;
     const char* const foot = *contact == Foot::right ? "right" : "left";
     if (known && *contact == Foot::right)
       info_.add(walking_->scores()).send("scores");
-    else if (!known && playing()->own.contact(*contact))
-      info_.add(playing()->own.scores()).send("scores");
+    else if (!known && playing()->own->contact(*contact))
+      info_.add(playing()->own->scores()).send("scores");
     info_.add(foot).send("step");
     info_.add(foot).send("contact");
   }

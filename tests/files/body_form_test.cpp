@@ -178,6 +178,7 @@ TEST(BodyForm, wherever_the_root_is_the_hips_and_legs_are_the_same) {
     const JointRoles roles = find_roles(form.clip);
     ASSERT_TRUE(roles.has_legs()) << root;
     EXPECT_EQ(roles.hips, 0) << root;
+    EXPECT_GE(roles.joint(Role::head), 0) << root;
     const WorldPoses world = world_poses(form.clip);
     for (const Role role : {Role::hips, Role::left_thigh, Role::right_shank, Role::left_foot})
       for (int frame = 0; frame < walk.frames(); frame += 20)

@@ -1,12 +1,15 @@
 // Damaged BVH files all the way from text to what is learnt from.
 #include <gtest/gtest.h>
 
+#include <fstream>
+
 #include "fuzz/damage.h"
 #include "gait/corpus/corpus.h"
 #include "gait/error.h"
 #include "gait/files/bvh.h"
 #include "gait/learn/cycles.h"
 #include "gait/learn/walk_sequences.h"
+#include "gait/motion/body_form.h"
 #include "gait/motion/body_frame.h"
 #include "gait/motion/contacts.h"
 #include "gait/motion/joint_roles.h"
@@ -24,6 +27,11 @@ std::string replaced(std::string text, std::string_view from, std::string_view t
   return text;
 }
 
+std::string text_of_case(const std::string& name) {
+  std::ifstream stream(std::filesystem::path(GAIT_TEST_CASES) / (name + ".bvh"));
+  return {std::istreambuf_iterator<char>(stream), {}};
+}
+
 // A walk of five seconds as several programs would write it.
 std::vector<std::string> whole_files() {
   Clip clip = make_walk({.style = corpus_style("proud")}).clip;
@@ -31,9 +39,13 @@ std::vector<std::string> whole_files() {
   clip.rotations.resize(150 * joints);
   clip.translations.resize(std::min<std::size_t>(clip.translations.size(), 150 * joints));
   const std::string text = bvh_text(bvh_from_clip(clip));
-  return {text, replaced(text, "\n", "\r\n"), replaced(text, " ", "\t"),
+  return {text,
+          replaced(text, "\n", "\r\n"),
+          replaced(text, " ", "\t"),
           replaced(text, "Zrotation Xrotation Yrotation", "Xrotation Yrotation Zrotation"),
-          replaced(text, " 0.", " 0.0000000000e+00 0.").substr(0, text.size())};
+          replaced(text, " 0.", " 0.0000000000e+00 0.").substr(0, text.size()),
+          text_of_case("root-at-head"),
+          text_of_case("offsets-in-channels")};
 }
 
 TEST(ClipFuzz, a_damaged_file_is_an_error_or_a_walk_that_can_be_followed) {
@@ -48,8 +60,8 @@ TEST(ClipFuzz, a_damaged_file_is_an_error_or_a_walk_that_can_be_followed) {
     const std::string text = damage.of(files[damage.below(files.size())]);
     try {
       const BvhFile file = parse_bvh(text, "damaged");
-      const Clip in_file = clip_from_bvh(file);
-      const JointRoles roles = find_roles(in_file.skeleton);
+      const Clip in_file = body_form(clip_from_bvh(file)).clip;
+      const JointRoles roles = find_roles(in_file);
       Walk walk;
       walk.clip = in_metres_y_up(in_file, guess_body_frame(in_file, roles));
       for (const Eigen::Quaterniond& rotation : walk.clip.rotations)

@@ -56,8 +56,20 @@ UsualPlace usual_place(const Clip& clip, int joint) {
   return usual;
 }
 
+// Joints with a role and those above them; targets and props may move as they like.
+std::vector<bool> parts_of_body(const Skeleton& skeleton, const JointRoles& roles) {
+  std::vector<bool> parts(skeleton.joints.size(), false);
+  for (int joint = skeleton.size() - 1; joint >= 0; --joint) {
+    parts[joint] = parts[joint] || roles.of_joint[joint] != Role::none;
+    if (const int parent = skeleton.joints[joint].parent; parent >= 0 && parts[joint])
+      parts[parent] = true;
+  }
+  return parts;
+}
+
 // Bones from the position channels of all joints but those that carry the body (`carriers`).
-void take_bones_from_positions(BodyForm& form, const std::vector<bool>& carriers) {
+void take_bones_from_positions(BodyForm& form, const std::vector<bool>& carriers,
+                               const JointRoles& roles) {
   Clip& clip = form.clip;
   if (clip.frames() == 0) return;
   std::vector<UsualPlace> usual(clip.skeleton.joints.size());
@@ -68,12 +80,13 @@ void take_bones_from_positions(BodyForm& form, const std::vector<bool>& carriers
       longest = std::max(longest, usual[joint].median.norm());
       longest = std::max(longest, clip.skeleton.joints[joint].offset.norm());
     }
+  const std::vector<bool> parts = parts_of_body(clip.skeleton, roles);
   std::vector<int> elsewhere;
   std::vector<std::string> moving;
   double positions = 0, offsets = 0;
   for (int joint = 0; joint < clip.skeleton.size(); ++joint) {
     if (carriers[joint]) continue;
-    if (usual[joint].spread > truly_moves * longest)
+    if (parts[joint] && usual[joint].spread > truly_moves * longest)
       moving.push_back(clip.skeleton.joints[joint].name);
     const Eigen::Vector3d& offset = clip.skeleton.joints[joint].offset;
     if ((usual[joint].median - offset).norm() <= same_place * longest) continue;
@@ -196,7 +209,10 @@ class TurnedOver {
     if (joint == chain_.back() && under.offset.norm() > 0) made.tips.push_back(-under.offset);
     // The lowest joint of the spine sits on the hips, as a mount of a leg does.
     const bool in_leg = roles_.of_joint[joint] >= Role::left_thigh;
-    made.sits_at = place_[joint] == 1 && !in_leg ? made.name : under.name;
+    // A head that is the root turns head and neck in one: a head is missed more.
+    const bool only_head = roles_.of_joint[joint] == Role::head &&
+                           std::ranges::count(roles_.of_joint, Role::head) == 1;
+    made.sits_at = (place_[joint] == 1 && !in_leg) || only_head ? made.name : under.name;
   }
 
   const Clip& file_;
@@ -221,7 +237,7 @@ BodyForm body_form(Clip clip, const RoleTable& table) {
   for (const Joint& joint : skeleton.joints) carriers.push_back(joint.parent < 0);
   for (int at = above.empty() ? roles.hips : above.back(); at >= 0; at = skeleton.joints[at].parent)
     carriers[at] = true;
-  take_bones_from_positions(form, carriers);
+  take_bones_from_positions(form, carriers, roles);
   if (above.empty()) return form;
   const Clip file = std::move(form.clip);
   form.clip = {};

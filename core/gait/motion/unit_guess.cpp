@@ -49,7 +49,7 @@ constexpr double tempo_spread = 0.2;
 constexpr double height_over_leg = 2.04;
 
 // In nats: a unit that is this much less likely is out of the question.
-constexpr double no_rival = 2.7;
+constexpr double no_rival = 2.6;
 // Legs that some person has; in units that few files are in, that a grown one has.
 constexpr double longest_leg = 1.15, least_grown_leg = 0.6;
 

@@ -4,8 +4,8 @@
 #include <utility>
 
 #include "gait/error.h"
-#include "gait/play/cycles/cycle_pose.h"
 #include "gait/play/cycles/speed_tables.h"
+#include "gait/play/cycles/style_tables.h"
 #include "gait/play/recognise/state_tables.h"
 #include "gait/play/synthesise/step_tables.h"
 
@@ -15,7 +15,7 @@ struct PlayModel::Tables {
   std::mutex making;
   std::shared_ptr<const StateTables> states;
   std::shared_ptr<const StepTables> steps;
-  std::shared_ptr<const CycleTables> cycles;
+  std::shared_ptr<const StyleTables> styles;
   std::shared_ptr<const SpeedTables> speeds;
 
   template <class Table, class Make>
@@ -37,8 +37,8 @@ std::shared_ptr<const StepTables> PlayModel::steps() const {
   return tables_->once(tables_->steps, [this] { return make_step_tables(*model); });
 }
 
-std::shared_ptr<const CycleTables> PlayModel::cycles() const {
-  return tables_->once(tables_->cycles, [this] { return make_cycle_tables(*model); });
+std::shared_ptr<const StyleTables> PlayModel::styles() const {
+  return tables_->once(tables_->styles, [this] { return make_style_tables(*model); });
 }
 
 std::shared_ptr<const SpeedTables> PlayModel::speeds() const {
@@ -49,7 +49,7 @@ std::shared_ptr<const PlayModel> make_play_model(Model model) {
   auto made = std::make_shared<const PlayModel>(std::make_shared<const Model>(std::move(model)));
   made->states();
   if (made->has_steps()) made->steps();
-  if (made->has_cycles()) made->cycles();
+  if (made->has_cycles()) made->styles();
   if (made->has_speeds()) made->speeds();
   return made;
 }

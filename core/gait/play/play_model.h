@@ -11,10 +11,10 @@
 
 namespace gait {
 
-struct CycleTables;
 struct SpeedTables;
 struct StateTables;
 struct StepTables;
+struct StyleTables;
 
 class PlayModel {
  public:
@@ -31,7 +31,7 @@ class PlayModel {
   // Each throws Error when the model cannot serve, saying what it lacks.
   std::shared_ptr<const StateTables> states() const;  // for Recogniser and ObservationMap
   std::shared_ptr<const StepTables> steps() const;    // for StepWalker and Synthesiser
-  std::shared_ptr<const CycleTables> cycles() const;  // for StyleWalker
+  std::shared_ptr<const StyleTables> styles() const;  // for StyleWalker
   std::shared_ptr<const SpeedTables> speeds() const;  // for SpeedWalker
 
  private:

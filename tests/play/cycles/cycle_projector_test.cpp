@@ -29,7 +29,7 @@ TEST(CycleProjector, finds_the_scores_of_a_synthesised_walk_again) {
   StyleWalker walker(model, 3);
   walker.set_style(testing::style_named(*model, "sad"));
   walker.set_variation(0);  // every cycle the mean one: no joins in it
-  CycleProjector projector(model->style_space->space, *model->body);
+  CycleProjector projector(model, model->style_space->space);
   const Eigen::VectorXf deviations =
       model->style_space->space.variances.head(walker.components()).cwiseSqrt().cast<float>();
   int projected = 0;
@@ -49,7 +49,7 @@ TEST(CycleProjector, finds_the_scores_of_a_synthesised_walk_again) {
 
 TEST(CycleProjector, takes_neither_other_sizes_nor_cycles_that_are_none) {
   const auto& model = corpus_walks().model;
-  CycleProjector projector(model->style_space->space, *model->body);
+  CycleProjector projector(model, model->style_space->space);
   const std::vector<float> pose(3 * model->body->skeleton.joints.size(), 0.1f);
   EXPECT_FALSE(projector.add(std::span(pose).first(5)));
   EXPECT_FALSE(projector.contact(Foot::right));  // no frame yet

@@ -115,7 +115,7 @@ TEST(Trajectory, is_the_dense_maximum_likelihood_solution_for_every_shape_of_que
 
 TEST(Trajectory, cannot_be_bettered_in_any_frame) {
   std::mt19937 random(2);
-  Trajectory trajectory(values, 8, 1, 0);
+  Trajectory trajectory(values, 0, 1, 8);
   std::deque<OutputGaussian> queue;
   for (int frame = 0; frame < 9; ++frame) {
     queue.push_back(random_gaussian(random));

@@ -136,14 +136,14 @@ TEST(WholePast, is_as_near_as_the_frames_kept_when_the_queues_length_is_set) {
     gaussian.variance.tail(6).setConstant(0.05f);
     return gaussian;
   };
-  Trajectory carried(3, whole_past, 1, 0), set(3, 15, 1, 0);
+  Trajectory carried(3, whole_past, 1, 0), set(3, 6, 1, 0);
   for (int i = 0; i < 100; ++i) {
     const OutputGaussian gaussian = next();
     carried.push(gaussian);
     set.push(gaussian);
   }
   Trajectory late = carried;
-  carried.resize(15, 0);
+  carried.resize(6, 0);
   EXPECT_EQ(Eigen::MatrixXf(carried.generate()), Eigen::MatrixXf(set.generate()));
   // Another future goes on with the same past, as if it had always been so.
   late.resize(whole_past, 4);

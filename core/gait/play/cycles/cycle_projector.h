@@ -1,14 +1,13 @@
 // A walk as it comes, cycle by cycle as points in a space of cycles (T10 eq. 1): frames between two
 // right contacts are brought to the space's number of frames and projected.
 //
-// Time is taken to pass evenly between contacts, as in training (learn/cycles). Nothing allocates
-// after construction.
+// Time is taken to pass evenly between contacts, as in training (learn/cycles). Of a long cycle
+// every second, fourth ... frame is kept, at least 64. Nothing allocates after construction.
 #pragma once
 
 #include <Eigen/Core>
-#include <Eigen/Geometry>
+#include <memory>
 #include <span>
-#include <vector>
 
 #include "gait/model/cycle_space.h"
 #include "gait/model/model.h"
@@ -20,8 +19,8 @@ class CycleProjector {
  public:
   static constexpr int most_frames = 1024;  // of a cycle; longer ones are not projected
 
-  // Keeps what it needs of the space and the body.
-  CycleProjector(const CycleSpace& space, const Body& body);
+  // `space`: one of the model's, which has a body.
+  CycleProjector(std::shared_ptr<const Model> model, const CycleSpace& space);
 
   // The next frame: rotation vectors relative to the body's references, three per joint of the body
   // (radians), the hips' with heading out. False, with nothing changed, for another size.
@@ -38,17 +37,23 @@ class CycleProjector {
   void reset() noexcept;
 
  private:
+  static constexpr int most_kept = 128;  // frames
+
+  void keep() noexcept;
+  void frame_at(double frames) noexcept;
   void project() noexcept;
 
-  int frames_ = 0, pose_values_ = 0;
-  std::vector<int> joints_;  // of the body
-  Eigen::VectorXf mean_;
-  Eigen::MatrixXf components_;         // values by components
+  std::shared_ptr<const Model> model_;
+  const CycleSpace& space_;
   Eigen::VectorXf inverse_deviation_;  // per component
-  Eigen::MatrixXf taken_;              // 3 * joints by most_frames: since the right contact
-  int count_ = 0, left_ = 0;           // frames taken; where the left foot touched, 0: did not
-  bool whole_ = false;                 // began with a right contact, and fits
-  Eigen::VectorXf cycle_, scores_;
+  Eigen::VectorXf newest_;             // the frame taken last, 3 * joints
+  Eigen::MatrixXf kept_;               // columns: frames 0, stride, 2 stride ...
+  int stride_ = 1;
+  int count_ = 0, left_ = 0;  // frames taken since the right contact; where the left foot touched,
+                              // 0: did not
+  bool whole_ = false;        // began with a right contact, and fits
+  Eigen::VectorXf scores_;
+  Eigen::VectorXd frame_, sums_;
 };
 
 }  // namespace gait

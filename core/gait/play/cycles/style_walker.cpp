@@ -1,84 +1,28 @@
 #include "gait/play/cycles/style_walker.h"
 
-#include <Eigen/Cholesky>
 #include <algorithm>
 #include <cmath>
 
-#include "gait/error.h"
 #include "gait/motion/smoothing.h"
 
 namespace gait {
 
 namespace {
 
-constexpr double join = 0.1;            // of the phase: over which one cycle becomes the next
-constexpr double drawing = 0.75;        // of the phase: over which the next cycle is drawn
-constexpr double of_its_own = 0.1;      // share of each number's variance that is its own
-constexpr float step = 0.5f;            // cycles: over which a control arrives
-constexpr float beyond_styles = 0.25f;  // of all styles' range: exaggerated durations stay within
-constexpr float beyond_range = 0.1f;    // of the observed range's ends: durations stay within
-
-std::vector<bool> can_walk(const StyleSpace& space) {
-  std::vector<bool> can;
-  for (const StyleCycles& style : space.styles) can.push_back(style.cycles > 0);
-  return can;
-}
-
-Eigen::VectorXf even_weights(const StyleSpace& space) {
-  Eigen::VectorXf weights(static_cast<Eigen::Index>(space.styles.size()));
-  for (Eigen::Index i = 0; i < weights.size(); ++i)
-    weights[i] = space.styles[static_cast<std::size_t>(i)].cycles > 0 ? 1.0f : 0.0f;
-  return weights / weights.sum();
-}
-
-Eigen::VectorXf neutral_weights(const Model& model) {
-  const StyleSpace& space = *model.style_space;
-  for (std::size_t i = 0; i < model.styles.size(); ++i)
-    if ((model.styles[i] == "neutral" || model.styles[i] == "normal") && space.styles[i].cycles > 0)
-      return Eigen::VectorXf::Unit(static_cast<Eigen::Index>(model.styles.size()),
-                                   static_cast<Eigen::Index>(i));
-  return even_weights(space);
-}
+constexpr double join = 0.1;      // of the phase: over which one cycle becomes the next
+constexpr double drawing = 0.75;  // of the phase: over which the next cycle is drawn
+constexpr float step = 0.5f;      // cycles: over which a control arrives
 
 }  // namespace
 
 StyleWalker::StyleWalker(const PlayModel& played, std::uint64_t seed)
-    : cycle_pose_(played.cycles()),
-      mix_(can_walk(*played.model->style_space), neutral_weights(*played.model)),
-      hinges_(*played.model->body),
-      draws_(played.model->style_space->space.kept() + 1, seed) {
-  const StyleSpace& space = *played.model->style_space;
-  const int components = space.space.kept();
-  const auto styles = static_cast<Eigen::Index>(space.styles.size());
-  means_ = deviations_ = limits_ = Eigen::MatrixXf::Zero(components + 1, styles);
-  ranges_ = Eigen::MatrixXf::Zero(2, styles);
-  for (Eigen::Index s = 0; s < styles; ++s) {
-    const StyleCycles& style = space.styles[static_cast<std::size_t>(s)];
-    for (int i = 0; i <= components; ++i) {
-      const Variation& variation =
-          i < components ? style.scores[static_cast<std::size_t>(i)] : style.duration;
-      means_(i, s) = static_cast<float>(variation.mean);
-      deviations_(i, s) = static_cast<float>(variation.deviation);
-      limits_(i, s) = static_cast<float>(variation.largest_change);
-    }
-    const Eigen::MatrixXd shrunk =
-        (1 - of_its_own) * style.correlation +
-        of_its_own * Eigen::MatrixXd::Identity(components + 1, components + 1);
-    const Eigen::LLT<Eigen::MatrixXd> factor(shrunk);
-    together_.push_back(Eigen::MatrixXd(factor.matrixU()).cast<float>());
-    ranges_(0, s) = static_cast<float>(style.duration.lowest) * (1 - beyond_range);
-    ranges_(1, s) = static_cast<float>(style.duration.highest) * (1 + beyond_range);
-  }
-  overall_ = means_ * even_weights(space);
-  shortest_ = longest_ = overall_[components];
-  for (Eigen::Index s = 0; s < styles; ++s) {
-    if (space.styles[static_cast<std::size_t>(s)].cycles == 0) continue;
-    shortest_ = std::min(shortest_, ranges_(0, s) * (1 - beyond_styles));
-    longest_ = std::max(longest_, ranges_(1, s) * (1 + beyond_styles));
-  }
-  mean_ = deviation_ = limit_ = row_ = overall_;
+    : tables_(played.styles()),
+      cycle_pose_(tables_->cycles),
+      mix_(tables_->can_walk, tables_->neutral),
+      draws_(cycle_pose_.components() + 1, seed) {
+  const int components = cycle_pose_.components();
+  mean_ = deviation_ = limit_ = row_ = tables_->overall;
   range_ = Eigen::VectorXf::Zero(2);
-  component_deviations_ = space.space.variances.head(components).cwiseSqrt().cast<float>();
   pinned_.assign(components, Glide(0));
   pin_values_.assign(components, Glide(0));
   scores_ = Eigen::VectorXf::Zero(components);
@@ -156,18 +100,18 @@ bool StyleWalker::set_cadence(float steps_per_second) noexcept {
 
 void StyleWalker::mix_styles() noexcept {
   const Eigen::VectorXf& weights = mix_.weights();
-  mean_.noalias() = means_ * weights;
+  mean_.noalias() = tables_->means * weights;
   // Of independent draws of each style, weighted: half-way between two, less than either varies.
-  deviation_.noalias() = deviations_.cwiseAbs2() * weights.cwiseAbs2();
+  deviation_.noalias() = tables_->deviations.cwiseAbs2() * weights.cwiseAbs2();
   deviation_ = deviation_.cwiseSqrt();
-  limit_.noalias() = limits_ * weights;
-  range_.noalias() = ranges_ * weights;
+  limit_.noalias() = tables_->limits * weights;
+  range_.noalias() = tables_->ranges * weights;
   const float duration = mean_[components()];
-  mean_ = overall_ + exaggeration_.value() * (mean_ - overall_);
+  mean_ = tables_->overall + exaggeration_.value() * (mean_ - tables_->overall);
   // Durations by their ratio: twice in a hurry is fast, not instant.
-  const float usual = overall_[components()];
-  mean_[components()] =
-      std::clamp(usual * std::pow(duration / usual, exaggeration_.value()), shortest_, longest_);
+  const float usual = tables_->overall[components()];
+  mean_[components()] = std::clamp(usual * std::pow(duration / usual, exaggeration_.value()),
+                                   tables_->shortest, tables_->longest);
   range_.array() += mean_[components()] - duration;
 }
 
@@ -202,9 +146,9 @@ void StyleWalker::draw_next(int count) noexcept {
   const Eigen::VectorXf& weights = mix_.weights();
   for (; drawn_ < std::min(count, static_cast<int>(mean_.size())); ++drawn_) {
     row_.head(drawn_ + 1).setZero();
-    for (std::size_t style = 0; style < together_.size(); ++style)
+    for (std::size_t style = 0; style < tables_->together.size(); ++style)
       if (const float weight = weights[static_cast<Eigen::Index>(style)]; weight > 0)
-        row_.head(drawn_ + 1) += weight * together_[style].col(drawn_).head(drawn_ + 1);
+        row_.head(drawn_ + 1) += weight * tables_->together[style].col(drawn_).head(drawn_ + 1);
     draws_.draw(drawn_, draws_.uniform(drawn_, row_), bounds(drawn_));
   }
 }
@@ -213,7 +157,7 @@ float StyleWalker::duration() const noexcept {
   const int i = components();
   // The range again: variation or style may have changed since the draw.
   const float drawn = mean_[i] + variation_.value() * deviation_[i] * draws_.current()[i];
-  return std::clamp(std::clamp(drawn, range_[0], range_[1]), shortest_, longest_);
+  return std::clamp(std::clamp(drawn, range_[0], range_[1]), tables_->shortest, tables_->longest);
 }
 
 double StyleWalker::frequency() const noexcept {
@@ -272,11 +216,11 @@ void StyleWalker::show() noexcept {
     const float z = draws_.current()[i] + next * (draws_.next()[i] - draws_.current()[i]);
     const auto place = static_cast<std::size_t>(i);
     const float drawn = mean_[i] + variation * deviation_[i] * z;
-    const float held = pin_values_[place].value() * component_deviations_[i];
+    const float held = pin_values_[place].value() * tables_->component_deviations[i];
     scores_[i] = drawn + pinned_[place].value() * (held - drawn);
   }
   cycle_pose_.read(phase_, scores_, pose_);
-  hinges_.apply(pose_);
+  tables_->hinges.apply(pose_);
 }
 
 }  // namespace gait

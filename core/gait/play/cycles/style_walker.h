@@ -31,7 +31,7 @@
 #include "gait/play/change/style_mix.h"
 #include "gait/play/cycles/cycle_draws.h"
 #include "gait/play/cycles/cycle_pose.h"
-#include "gait/play/cycles/hinge_limits.h"
+#include "gait/play/cycles/style_tables.h"
 #include "gait/play/play_model.h"
 
 namespace gait {
@@ -95,22 +95,16 @@ class StyleWalker {
   double frequency() const noexcept;   // cycles per second
   void show() noexcept;
 
+  std::shared_ptr<const StyleTables> tables_;
   CyclePose cycle_pose_;
   StyleMix mix_;
-  HingeLimits hinges_;
   CycleDraws draws_;  // one per component, then the duration's
 
-  // Per style, columns: scores and then the duration; mixed by the weights.
-  Eigen::MatrixXf means_, deviations_, limits_;
-  Eigen::MatrixXf ranges_;                 // lowest and highest duration
-  std::vector<Eigen::MatrixXf> together_;  // columns: rows of the correlations' Cholesky factor
+  // Of the tables, mixed by the weights.
   Eigen::VectorXf mean_, deviation_, limit_, range_;
-  Eigen::VectorXf overall_;           // mean of all styles
-  float shortest_ = 0, longest_ = 0;  // cycle, however exaggerated
 
   Glide variation_{1}, exaggeration_{1};
   std::vector<Glide> pinned_, pin_values_;  // how much, and at which score
-  Eigen::VectorXf component_deviations_;
   float cadence_ = 0;
 
   int drawn_ = 0;        // numbers of the next cycle that are drawn already

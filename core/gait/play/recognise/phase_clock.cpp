@@ -19,6 +19,8 @@ constexpr double phase_doubt = 0.3;       // deviations at a beginning: cycles
 constexpr double frequency_doubt = 0.25;  // and share of the frequency
 constexpr double other_tempo = 1.5;       // ratio of a step's to the loop's; a limp is none
 constexpr double longest_move = 0.002;    // seconds at once
+constexpr double longest_of_frame = 0.01;  // seconds at once where frames advance the clock,
+constexpr int parts_of_frame = 5;          // computed as so many
 // The largest float below one: rounding must not show the next cycle early.
 constexpr float below_one = 0x1.fffffep-1f;
 constexpr double longest_advance = 60;  // seconds; who was away longer has lost the walk anyway
@@ -293,9 +295,11 @@ void PhaseClock::advance(double seconds) noexcept {
   crossing_count_ = 0;
   if (!(seconds > 0) || !std::isfinite(seconds)) return;
   const double whole = std::min(seconds, longest_advance);
-  const int moves = static_cast<int>(std::ceil(whole / longest_move));
-  const Pace pace = pace_of(1, whole / moves);
-  for (int i = 0; i < moves; ++i) pass(static_cast<float*>(nullptr), 0, 1, move(pace));
+  const int moves = static_cast<int>(std::ceil(whole / longest_of_frame));
+  const double period = whole / moves / parts_of_frame;
+  if (pace_.samples != parts_of_frame || period != pace_.period)
+    pace_ = pace_of(parts_of_frame, period);
+  for (int i = 0; i < moves; ++i) pass(static_cast<float*>(nullptr), 0, 1, move(pace_));
 }
 
 float PhaseClock::phase() const noexcept { return std::min(static_cast<float>(ramp_), below_one); }

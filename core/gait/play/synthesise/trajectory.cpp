@@ -8,7 +8,7 @@ namespace gait {
 namespace {
 
 // Frames of the whole past that stay at hand, for a queue of another length.
-constexpr int kept_past = 20;
+constexpr int kept_past = 6;
 
 }  // namespace
 
@@ -19,11 +19,11 @@ Trajectory::Trajectory(int values, int past, int current, int future)
       future_(std::max(0, future)),
       length_((carried() ? kept_past : past_) + current_ + future_),
       ends_((values + lanes - 1) / lanes),
-      path_(Eigen::MatrixXf::Zero(lanes * blocks(), length_)) {
+      path_(Eigen::MatrixXf::Zero(lanes * blocks(), delay() + 1)) {
   Frame empty;
   for (int part = 0; part < 3; ++part) empty.weight[part].setOnes(), empty.target[part].setZero();
   frames_.assign(ends_.size() * static_cast<std::size_t>(length_), empty);
-  eliminated_.assign(frames_.size(), {Block::Zero(), Block::Zero(), Block::Zero()});
+  eliminated_.assign(frames_.size(), {FloatBlock::Zero(), FloatBlock::Zero(), FloatBlock::Zero()});
   reset();
 }
 
@@ -48,8 +48,8 @@ void Trajectory::push(const OutputGaussian& gaussian) noexcept {
       const float* const variance = gaussian.variance.data() + part * values_ + first;
       const float* const mean = gaussian.mean.data() + part * values_ + first;
       if (count == lanes) {
-        frame.weight[part] = Eigen::Map<const Eigen::Array<float, lanes, 1>>(variance).inverse();
-        frame.target[part] = Eigen::Map<const Eigen::Array<float, lanes, 1>>(mean);
+        frame.weight[part] = Eigen::Map<const FloatBlock>(variance).inverse();
+        frame.target[part] = Eigen::Map<const FloatBlock>(mean);
       } else {
         for (int i = 0; i < count; ++i) {
           frame.weight[part][i] = 1 / variance[i];
@@ -85,14 +85,13 @@ void Trajectory::factor(int block, int i) noexcept {
   const Block oldest = ends.before + outer, to_middle = ends.between - 2.0 * second;
   const Block to_last = second - 0.5 * first;
   const Block inverse = oldest.inverse();
-  Eliminated& eliminated = eliminated_[place(block, i - 2)];
-  eliminated.start = (ends.right_before + curved - sloped) * inverse;
-  eliminated.next = to_middle * inverse;
-  eliminated.second = to_last * inverse;
-  ends = {ends.last + 4.0 * second - to_middle * eliminated.next,
-          -2.0 * second - to_middle * eliminated.second, last - to_last * eliminated.second,
-          ends.right_last - 2.0 * curved - to_middle * eliminated.start,
-          right_last - to_last * eliminated.start};
+  const Block start = (ends.right_before + curved - sloped) * inverse;
+  const Block to_next = to_middle * inverse, to_second = to_last * inverse;
+  eliminated_[place(block, i - 2)] = {start.cast<float>(), to_next.cast<float>(),
+                                      to_second.cast<float>()};
+  ends = {ends.last + 4.0 * second - to_middle * to_next, -2.0 * second - to_middle * to_second,
+          last - to_last * to_second, ends.right_last - 2.0 * curved - to_middle * start,
+          right_last - to_last * start};
 }
 
 // The path's `count` frames that end `later` frames before the newest, into the first columns.
@@ -116,8 +115,9 @@ void Trajectory::solve(int later, int count) noexcept {
     put(filled_ - 2, value);
     for (int i = filled_ - 3; i >= first; --i) {
       const Eliminated& eliminated = eliminated_[place(block, i)];
-      const Block earlier =
-          eliminated.start - eliminated.next * value - eliminated.second * later_value;
+      const Block earlier = eliminated.start.cast<double>() -
+                            eliminated.next.cast<double>() * value -
+                            eliminated.second.cast<double>() * later_value;
       later_value = value, value = earlier;
       put(i, value);
     }
@@ -153,7 +153,7 @@ Eigen::Ref<const Eigen::MatrixXf> Trajectory::generate() noexcept {
 }
 
 Eigen::Ref<const Eigen::MatrixXf> Trajectory::flush(int count) noexcept {
-  count = std::min(count, filled_);
+  count = std::min({count, filled_, delay() + 1});
   solve(0, count);
   return path_.topLeftCorner(values_, count);
 }

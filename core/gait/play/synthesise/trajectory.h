@@ -52,8 +52,8 @@ class Trajectory {
   // call.
   Eigen::Ref<const Eigen::MatrixXf> generate() noexcept;
 
-  // For the end of a stream: the queue's last `count` frames, values by count; what was still in
-  // the future.
+  // For the end of a stream: the queue's last `count` frames, values by count, at most delay() + 1
+  // of them; what was still in the future.
   Eigen::Ref<const Eigen::MatrixXf> flush(int count) noexcept;
 
   int delay() const noexcept { return future_ + current_ - 1; }  // frames
@@ -68,9 +68,10 @@ class Trajectory {
   // Values are computed four at a time.
   static constexpr int lanes = 4;
   using Block = Eigen::Array<double, lanes, 1>;
+  using FloatBlock = Eigen::Array<float, lanes, 1>;
 
   struct Frame {  // inverse variance and mean of each part
-    Eigen::Array<float, lanes, 1> weight[3], target[3];
+    FloatBlock weight[3], target[3];
   };
   // The system's rows of the last two frames without those before, which are eliminated: later
   // frames still change them.
@@ -81,7 +82,7 @@ class Trajectory {
   // A frame that is eliminated: its value is start - next * (that of the next) - second * (that of
   // the second next).
   struct Eliminated {
-    Block start, next, second;
+    FloatBlock start, next, second;
   };
 
   bool carried() const noexcept { return past_ == whole_past; }
