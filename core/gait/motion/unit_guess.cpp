@@ -48,8 +48,9 @@ constexpr double tempo_spread = 0.2;
 // legs have no names.
 constexpr double height_over_leg = 2.04;
 
-// In nats: a unit that is this much less likely is out of the question.
-constexpr double no_rival = 2.7;
+// In nats: a unit that is this much less likely is out of the question. Children are rare, so one
+// is doubted sooner.
+constexpr double no_rival = 2.6, no_rival_of_child = 2.9;
 // Legs that some person has; in units that few files are in, that a grown one has.
 constexpr double longest_leg = 1.15, least_grown_leg = 0.6;
 
@@ -127,7 +128,8 @@ UnitGuess unit_of_leg(double leg, const std::optional<WalkTempo>& tempo) {
   const Candidate& best = candidates[0];
   UnitGuess guess{best.unit->metres, ""};
   const std::string taken = "; taking " + std::string(best.unit->name);
-  if (candidates[1].score > best.score - no_rival)
+  if (candidates[1].score >
+      best.score - (best.metres < least_grown_leg ? no_rival_of_child : no_rival))
     guess.doubt = "the unit is doubtful, as a leg of " + told(leg) + " units may be " + told(best) +
                   " or " + told(candidates[1]) + taken + " (say --unit " +
                   std::string(best.unit->name) + " or --unit " +
