@@ -19,7 +19,7 @@ struct Named {
 constexpr int fingers_begin = index_of(Bone::left_fingers);
 
 // Lengths of a usual body: shares of its height after Winter 2009, table 4.1, at 1.70 m.
-constexpr std::array<Named, main_bones + 3> bones{{
+constexpr std::array<Named, main_bones + 3> named_bones{{
     {"Hips", -1, 0, 0.93, 0, Role::hips},
     {"Spine", 0, 0, 0.10, 0, Role::spine},
     {"Chest", 1, 0, 0.13, 0},
@@ -69,19 +69,21 @@ bool same_letters(std::string_view a, std::string_view b) {
 
 // -1 for Role::none; the spine's first bone for Role::spine.
 int bone_of(Role role) {
-  const auto bone = std::ranges::find(bones, role, &Named::role);
-  return role == Role::none || bone == bones.end() ? -1 : static_cast<int>(bone - bones.begin());
+  const auto bone = std::ranges::find(named_bones, role, &Named::role);
+  return role == Role::none || bone == named_bones.end()
+             ? -1
+             : static_cast<int>(bone - named_bones.begin());
 }
 
 }  // namespace
 
 std::string_view bone_name(int bone) {
-  return bone < fingers_begin ? bones[static_cast<std::size_t>(bone)].name
+  return bone < fingers_begin ? named_bones[static_cast<std::size_t>(bone)].name
                               : fingers[static_cast<std::size_t>(bone - fingers_begin)];
 }
 
 int bone_parent(int bone) {
-  if (bone < fingers_begin) return bones[static_cast<std::size_t>(bone)].parent;
+  if (bone < fingers_begin) return named_bones[static_cast<std::size_t>(bone)].parent;
   const int finger = bone - fingers_begin;
   if (finger % 3 != 0) return bone - 1;
   return index_of(finger < 15 ? Bone::left_hand : Bone::right_hand);
@@ -114,7 +116,7 @@ std::vector<JointBone> bones_of_joints(const Skeleton& skeleton, std::span<const
 
 Eigen::Vector3d usual_offset(int bone) {
   if (bone < fingers_begin) {
-    const Named& named = bones[static_cast<std::size_t>(bone)];
+    const Named& named = named_bones[static_cast<std::size_t>(bone)];
     return {named.x, named.y, named.z};
   }
   const int finger = bone - fingers_begin;

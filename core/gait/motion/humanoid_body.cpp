@@ -12,7 +12,7 @@ namespace gait {
 
 namespace {
 
-constexpr int spine = index_of(Bone::spine), upper_chest = index_of(Bone::upper_chest);
+constexpr int spine_bone = index_of(Bone::spine), upper_chest = index_of(Bone::upper_chest);
 
 }  // namespace
 
@@ -52,16 +52,16 @@ HumanoidBody::HumanoidBody(const Skeleton& skeleton, const JointRoles& roles,
     int above = skeleton.joints[joint].parent;
     while (above >= 0 && joints_[above].bone < 0) above = skeleton.joints[above].parent;
     above_.push_back(above);
-    if (joints_[joint].bone == spine)
+    if (joints_[joint].bone == spine_bone)
       spine_joints.push_back(joint);
     else if (joints_[joint].bone >= 0)
       joint_of_[joints_[joint].bone] = joint;  // of several, the last
   }
   // The three bones of the spine are read from its lowest, middle and highest joint.
-  if (!spine_joints.empty()) joint_of_[spine] = spine_joints.front();
-  if (spine_joints.size() == 2) joint_of_[spine + 1] = spine_joints[1];
+  if (!spine_joints.empty()) joint_of_[spine_bone] = spine_joints.front();
+  if (spine_joints.size() == 2) joint_of_[spine_bone + 1] = spine_joints[1];
   if (spine_joints.size() > 2) {
-    joint_of_[spine + 1] = spine_joints[spine_joints.size() / 2];
+    joint_of_[spine_bone + 1] = spine_joints[spine_joints.size() / 2];
     joint_of_[upper_chest] = spine_joints.back();
   }
   read(standing_, {}, t_pose_);
@@ -88,12 +88,12 @@ void HumanoidBody::read(std::span<const Eigen::Quaterniond> world,
 bool HumanoidBody::spine_turn(const HumanoidPose& pose, double share,
                               Eigen::Quaterniond& turn) const noexcept {
   int count = 0;
-  for (int bone = spine; bone <= upper_chest; ++bone) count += pose.turned[bone] ? 1 : 0;
+  for (int bone = spine_bone; bone <= upper_chest; ++bone) count += pose.turned[bone] ? 1 : 0;
   if (count == 0 || !pose.turned[index_of(Bone::hips)]) return false;
   const double place = share * count;
   const int below = std::min(static_cast<int>(place + 1e-9), count);
   Eigen::Quaterniond ends[2] = {pose.turns[index_of(Bone::hips)], pose.turns[index_of(Bone::hips)]};
-  for (int bone = spine, seen = 0; bone <= upper_chest; ++bone) {
+  for (int bone = spine_bone, seen = 0; bone <= upper_chest; ++bone) {
     if (!pose.turned[bone]) continue;
     ++seen;
     if (seen == below) ends[0] = pose.turns[bone];
@@ -108,7 +108,7 @@ bool HumanoidBody::turn_of(const HumanoidPose& pose, int joint,
                            Eigen::Quaterniond& turn) const noexcept {
   const JointBone& of = joints_[joint];
   if (of.bone < 0) return false;
-  if (of.bone == spine) return spine_turn(pose, of.share, turn);
+  if (of.bone == spine_bone) return spine_turn(pose, of.share, turn);
   if (!pose.turned[of.bone]) return false;
   turn = pose.turns[of.bone];
   if (of.share < 1) {

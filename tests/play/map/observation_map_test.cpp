@@ -90,7 +90,7 @@ TEST(ObservationMap, follows_a_recogniser_that_loses_inputs) {
     // By the same tables, made by another.
     CovarianceMap direct(*model, recogniser.tables());
     const OutputGaussian& expected =
-        direct.map(recogniser.states(), recogniser.scaled(), recogniser.known());
+        direct.map(recogniser.states(), recogniser.unclipped(), recogniser.known());
     map_from(map, message);
     const OutputGaussian found = modelled_of(map, *model);
     EXPECT_LT((found.mean - expected.mean).cwiseAbs().maxCoeff(), 1e-6f);
