@@ -196,7 +196,7 @@ void Recogniser::note_distances(const Held& frame) noexcept {
     const int state = states_[i].state;
     distances_[i] =
         frame.clipped ? unclipped_.distance(current_->states[state], frame.seen)
-                : std::sqrt(frame.squared_distances[state] / static_cast<float>(frame.seen));
+                      : std::sqrt(frame.squared_distances[state] / static_cast<float>(frame.seen));
     decision_.distance += states_[i].weight * distances_[i];
   }
 }
