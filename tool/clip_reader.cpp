@@ -70,7 +70,8 @@ std::string_view concern_named(Concern concern) {
 }
 
 ReadClip read_clip(const std::filesystem::path& path, const ClipReading& reading) {
-  const RoleTable table = reading.roles.empty() ? RoleTable{} : read_role_table(path_from_utf8(reading.roles));
+  const RoleTable table =
+      reading.roles.empty() ? RoleTable{} : read_role_table(path_from_utf8(reading.roles));
 
   ReadClip read;
   const auto doubt = [&](Concern concern, std::string text) {

@@ -76,9 +76,12 @@ void print_play(const PlayDefaults& play) {
   if (play.decoder == DecoderKind::lag) decoder += ", " + number(play.lag) + " s late";
   if (play.decoder == DecoderKind::forward) decoder += ", tempered by " + number(play.temper);
   print_row("decoder", decoder);
-  print_row("mapping", "strength " + number(play.strength));
+  print_row("mapping", "strength " + number(play.strength) +
+                           (play.trust ? ", up to " + number(*play.trust) + " usual distances off"
+                                       : std::string()));
   print_row("trajectory", (play.past ? number(*play.past) + " s" : std::string("all")) +
-                              " of past, " + number(play.future) + " s of future");
+                              " of past, " + number(play.future) + " s of future, eased by " +
+                              number(play.easing));
   print_row("style scores", "remembered for " + number(play.style_memory) + " s, tempered by " +
                                 number(play.style_temper));
 }
@@ -91,18 +94,28 @@ void print_training(const Training& training) {
             number(training.regularisation) + (training.regularisation_chosen_by.empty()
                                                    ? ""
                                                    : ", " + training.regularisation_chosen_by));
+  if (!training.subjects.empty()) print_row("subjects", joined_names(training.subjects));
   if (!training.log_likelihood.empty())
     print_row("Baum-Welch", std::to_string(training.log_likelihood.size()) +
                                 " rounds, log-likelihood " +
                                 number(training.log_likelihood.back()));
-  if (training.validated_step_accuracy <= 0) {
+  if (training.validated_step_accuracy <= 0 && training.strangers_step_accuracy <= 0) {
     print_row("validated", "no");
     return;
   }
   char text[160];
-  std::snprintf(text, sizeof text, "on held-out clips: error %.2f deg, step accuracy %.3f",
-                training.validated_error * degrees, training.validated_step_accuracy);
-  print_row("validated", text);
+  const char* validated = "validated";
+  if (training.strangers_step_accuracy > 0) {
+    std::snprintf(text, sizeof text, "on strangers: error %.2f deg, step accuracy %.3f",
+                  training.strangers_error * degrees, training.strangers_step_accuracy);
+    print_row(validated, text);
+    validated = "";
+  }
+  if (training.validated_step_accuracy <= 0) return;
+  std::snprintf(text, sizeof text, "on held-out clips%s: error %.2f deg, step accuracy %.3f",
+                *validated ? "" : " of known people", training.validated_error * degrees,
+                training.validated_step_accuracy);
+  print_row(validated, text);
   if (training.validated_style_accuracy > 0) {
     std::snprintf(text, sizeof text, "style accuracy %.3f, calibration error %.3f",
                   training.validated_style_accuracy, training.validated_calibration_error);
@@ -130,12 +143,16 @@ void print_text(const Model& model) {
   print_row("body", model.body ? std::to_string(model.body->skeleton.size()) + " joints"
                                : "none: its streams are plain values");
   if (model.body) print_hinges(*model.body);
+  if (model.body && model.body->hips_frame > 0)
+    print_row(
+        "", "the hips' frame may lie " + number(model.body->hips_frame * degrees) + " degrees off");
   print_streams("inputs", model.inputs, summaries_of_inputs(model), model.input.values,
                 model.input.statics());
   std::string history;
   for (const int lag : model.input.lags)
     append_name(history, number(1000 * lag / model.frame_rate));
   print_row("", history.empty() ? "each frame by itself" : "compared with " + history + " ms ago");
+  if (model.input.clips()) print_row("", "clipped at " + number(model.input.clip) + " deviations");
   print_streams("outputs", model.outputs, summaries_of_outputs(model), model.output.values,
                 model.output.statics());
   print_labels(model);
@@ -165,6 +182,7 @@ struct SettingsList {
   void operator()(const char* key, DecoderKind value) {
     settings[key] = word_of(decoder_kind_words, value);
   }
+  void optional(const char* key, double value, bool) { settings[key] = value; }
   void optional(const char* key, const std::optional<double>& value, bool is_set) {
     settings[key] = is_set ? ordered_json(*value) : ordered_json();
   }
@@ -184,8 +202,12 @@ ordered_json as_json(const Training& training) {
                  {"step_accuracy", training.validated_step_accuracy},
                  {"style_accuracy", training.validated_style_accuracy},
                  {"calibration_error", training.validated_calibration_error}};
+  if (training.strangers_step_accuracy > 0)
+    validated["strangers"] = {{"output_error_deg", training.strangers_error * degrees},
+                              {"step_accuracy", training.strangers_step_accuracy}};
   return {{"date", training.date},
           {"clips", training.clips},
+          {"subjects", training.subjects},
           {"regularisation", training.regularisation},
           {"regularisation_chosen_by", training.regularisation_chosen_by},
           {"log_likelihood", training.log_likelihood},
@@ -219,22 +241,26 @@ void print_json(const Model& model) {
                         {"least_degrees", hinge.least * degrees},
                         {"most_degrees", hinge.most * degrees}});
   }
-  const ordered_json report{{"name", model.name},
-                            {"comment", model.training.comment},
-                            {"synthetic", model.training.synthetic},
-                            {"frame_rate", model.frame_rate},
-                            {"joints", joints},
-                            {"hinges", hinges},
-                            {"inputs", as_json(model.inputs, summaries_of_inputs(model),
-                                               model.input.values, model.input.statics())},
-                            {"history_ms", lags},
-                            {"outputs", as_json(model.outputs, summaries_of_outputs(model),
-                                                model.output.values, model.output.statics())},
-                            {"labels", labels},
-                            {"styles", model.styles},
-                            {"play", as_json(model.play)},
-                            {"spaces", spaces_as_json(model)},
-                            {"training", as_json(model.training)}};
+  const ordered_json report{
+      {"name", model.name},
+      {"comment", model.training.comment},
+      {"synthetic", model.training.synthetic},
+      {"frame_rate", model.frame_rate},
+      {"joints", joints},
+      {"hinges", hinges},
+      {"inputs", as_json(model.inputs, summaries_of_inputs(model), model.input.values,
+                         model.input.statics())},
+      {"history_ms", lags},
+      {"clip", model.input.clips() ? ordered_json(model.input.clip) : ordered_json()},
+      {"hips_frame_degrees",
+       model.body ? ordered_json(model.body->hips_frame * degrees) : ordered_json()},
+      {"outputs", as_json(model.outputs, summaries_of_outputs(model), model.output.values,
+                          model.output.statics())},
+      {"labels", labels},
+      {"styles", model.styles},
+      {"play", as_json(model.play)},
+      {"spaces", spaces_as_json(model)},
+      {"training", as_json(model.training)}};
   print_report(report);
 }
 

@@ -93,7 +93,8 @@ void roles(const RolesOptions& options) {
   else
     print_table(options.clip, read);
   if (!options.output.empty())
-    write_whole_file(path_from_utf8(options.output), role_table_text(read.clip.skeleton, read.roles));
+    write_whole_file(path_from_utf8(options.output),
+                     role_table_text(read.clip.skeleton, read.roles));
 }
 
 void add_options(CLI::App& app, RolesOptions& options) {

@@ -71,6 +71,13 @@ void print_outputs(const Evaluation& evaluation) {
   for (const Estimate estimate : estimates)
     print_row("error, " + std::string(estimate_name(estimate)), "%.2f",
               in_degrees(evaluation.error(estimate)), meanings[static_cast<int>(estimate)]);
+  for (const bool known : {true, false}) {
+    const Means error = evaluation.error_of_people(Estimate::synthesised, known);
+    if (!std::isnan(error.over_clips))
+      print_row(known ? "  known people" : "  strangers", "%.2f", in_degrees(error),
+                known ? "of it, clips of people whom the model was learnt from"
+                      : "of it, clips of people whom the model has not seen");
+  }
   print_row("jerk, truth", "%.0f", evaluation.jerk(Source::truth),
             "how abruptly joints move in the clips, rad/s^3");
   print_row("jerk, mapped", "%.0f", evaluation.jerk(Source::mapped), "");
@@ -177,6 +184,9 @@ ordered_json clip_json(const EvaluatedClip& clip, const Evaluation& evaluation) 
     errors[key_of(estimate)] = number(alone.error(estimate).over_clips * degrees);
   return {{"clip", clip.name},
           {"style", clip.style},
+          {"subject", clip.subject},
+          {"subject_in_training",
+           clip.subject.empty() ? ordered_json(nullptr) : ordered_json(clip.subject_known)},
           {"recognised_style",
            clip.best_style < 0 ? std::string() : evaluation.styles[clip.best_style]},
           {"frames", clip.frames},
@@ -266,6 +276,10 @@ void print_json(const Evaluation& evaluation, const Model& model) {
       {"style_confusion", confusion_json(evaluation)},
       {"output_error_deg",
        errors_json([&](Estimate estimate) { return evaluation.error(estimate); })},
+      {"known_people_error_deg",
+       both(in_degrees(evaluation.error_of_people(Estimate::synthesised, true)))},
+      {"strangers_error_deg",
+       both(in_degrees(evaluation.error_of_people(Estimate::synthesised, false)))},
       {"contacts", contacts_json(evaluation)},
       {"jerk",
        {{"truth", both(evaluation.jerk(Source::truth))},

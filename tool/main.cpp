@@ -86,11 +86,11 @@ int main(int argc, char** argv) try {
 
   using namespace gait::tool;
   std::vector<Command> commands;
-  for (AddCommand* add :
-       {corpus_command, roles_command, label_command, train_command, info_command, evaluate_command,
-        reconstruct_command, synth_command, walk_command, render_command, plot_command,
+  for (AddCommand* add : {corpus_command, roles_command, label_command, train_command, info_command,
+                          evaluate_command, enrol_command, reconstruct_command, synth_command,
+                          walk_command, render_command, plot_command,
 #ifdef GAIT_HAS_OSC
-        stream_command, listen_command
+                          stream_command, listen_command
 #endif
        })
     commands.push_back(add(program));

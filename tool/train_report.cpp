@@ -43,6 +43,8 @@ std::vector<std::string> words_of_caution(const TrainReport& report) {
   if (styled > 0 && styled < used)
     words.push_back(std::to_string(used - styled) + " of " + std::to_string(used) +
                     " clips have no style: steps are learnt from them, styles are not");
+  if (report.selected.folds > 0 && report.selected.subjects == 0)
+    words.push_back("clips name no subjects, or one alone: how strangers fare was not validated");
   if (report.selected.folds == 0)
     words.push_back("a single clip: nothing could be validated on motion the model has not seen");
   return words;
@@ -66,13 +68,26 @@ void print_validation(const TrainReport& report) {
   std::printf("Regularisation %g, %s\n", training.regularisation,
               training.regularisation_chosen_by.c_str());
   if (!report.selected.trials.empty()) {
-    std::printf("  %14s %7s  %s\n", "regularisation", "rounds", "error on held-out clips");
+    const bool subjects = report.selected.subjects > 0;
+    std::printf("  %14s %7s %10s  %s\n", "regularisation", "rounds", "hips' frame",
+                subjects ? "error on subjects left out" : "error on held-out clips");
     for (const Trial& trial : report.selected.trials)
-      std::printf("  %14g %7d  %.3f deg\n", trial.regularisation, trial.rounds,
-                  trial.error * degrees);
+      std::printf("  %14g %7d %6.1f deg  %.3f deg\n", trial.regularisation, trial.rounds,
+                  trial.hips_frame * degrees, trial.error * degrees);
   }
   if (report.selected.folds == 0) return;
-  std::printf("On held-out clips (%d folds):\n", report.selected.folds);
+  if (report.selected.subjects > 0) {
+    std::printf("Strangers (each of %d subjects left out, means over them):\n",
+                report.selected.subjects);
+    std::printf("  %-22s %8.3f deg  mean angle between found and true joints, hips among them\n",
+                "error", training.strangers_error * degrees);
+    std::printf("  %-22s %8.3f      share of frames with the right step\n", "step accuracy",
+                training.strangers_step_accuracy);
+    if (training.validated_step_accuracy <= 0) return;
+    std::printf("Known people, on held-out clips (%d folds):\n", report.selected.folds);
+  } else {
+    std::printf("On held-out clips (%d folds):\n", report.selected.folds);
+  }
   std::printf("  %-22s %8.3f deg  mean angle between found and true joints, hips among them\n",
               "error", training.validated_error * degrees);
   std::printf("  %-22s %8.3f      share of frames with the right step\n", "step accuracy",
@@ -131,6 +146,7 @@ void print_json(const TrainReport& report) {
   for (const Trial& trial : report.selected.trials)
     trials.push_back({{"regularisation", trial.regularisation},
                       {"rounds", trial.rounds},
+                      {"hips_frame_deg", trial.hips_frame * degrees},
                       {"error_deg", trial.error * degrees}});
   ordered_json out{{"model", report.output},
                    {"synthetic", training.synthetic},
@@ -150,6 +166,8 @@ void print_json(const TrainReport& report) {
                    {"rounds", training.log_likelihood.size()},
                    {"trials", trials},
                    {"folds", report.selected.folds},
+                   {"subjects_left_out", report.selected.subjects},
+                   {"hips_frame_deg", model.body ? model.body->hips_frame * degrees : 0},
                    {"validated", nullptr},
                    {"log_likelihood", training.log_likelihood},
                    {"penalised_log_likelihood", training.penalised_log_likelihood},
@@ -158,6 +176,9 @@ void print_json(const TrainReport& report) {
   if (report.selected.folds > 0) {
     out["validated"] = {{"output_error_deg", training.validated_error * degrees},
                         {"step_accuracy", training.validated_step_accuracy}};
+    if (report.selected.subjects > 0)
+      out["validated"]["strangers"] = {{"output_error_deg", training.strangers_error * degrees},
+                                       {"step_accuracy", training.strangers_step_accuracy}};
     if (training.validated_style_accuracy > 0) {
       out["validated"]["style_accuracy"] = training.validated_style_accuracy;
       out["validated"]["calibration_error"] = training.validated_calibration_error;

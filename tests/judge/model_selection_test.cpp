@@ -131,6 +131,53 @@ TEST(ModelSelection, takes_of_the_same_name_are_judged_by_their_own_truth) {
   expect_same(apart.model, alike.model);
 }
 
+// Takes of three people, of whom each has a posture of his own that inputs do not tell.
+LearningTask task_of_people(unsigned seed) {
+  LearningTask task = task_of(12, 6, 6, 0.1, seed);
+  std::mt19937 random(seed);
+  std::normal_distribution<double> normal;
+  std::vector<Eigen::Vector2d> postures;
+  for (int person = 0; person < 3; ++person) postures.emplace_back(normal(random), normal(random));
+  for (std::size_t take = 0; take < task.sequences.size(); ++take) {
+    task.sequences[take].subject = "person " + std::to_string(take / 4);
+    task.sequences[take].outputs.colwise() += 3 * postures[take / 4];
+  }
+  return task;
+}
+
+TEST(ModelSelection, leaves_people_out_where_takes_name_them_and_says_how_strangers_fare) {
+  const LearningTask task = task_of_people(11);
+  const Selected selected = select_model(task, quick());
+  const Training& training = selected.model.training;
+  EXPECT_EQ(selected.subjects, 3);
+  EXPECT_EQ(training.subjects, (std::vector<std::string>{"person 0", "person 1", "person 2"}));
+  EXPECT_GT(training.validated_error, 0);
+  EXPECT_GT(training.strangers_error, 1.3 * training.validated_error)
+      << "a posture that inputs do not tell is known of known people alone";
+  EXPECT_GT(training.strangers_step_accuracy, 0.5);
+
+  // What is chosen is what did best on people left out, each person counting once.
+  const auto best =
+      std::min_element(selected.trials.begin(), selected.trials.begin() + 4,
+                       [](const Trial& a, const Trial& b) { return a.error < b.error; });
+  EXPECT_EQ(training.regularisation, best->regularisation);
+
+  LearningTask nameless = task;
+  for (Sequence& sequence : nameless.sequences) sequence.subject.clear();
+  const Selected mixed = select_model(nameless, quick());
+  EXPECT_EQ(mixed.subjects, 0);
+  EXPECT_EQ(mixed.model.training.strangers_error, 0);
+  EXPECT_LT(mixed.model.training.validated_error, training.strangers_error);
+}
+
+TEST(ModelSelection, people_with_one_take_each_are_all_strangers) {
+  LearningTask task = task_of(4, 6, 4, 0.2, 5);
+  for (std::size_t take = 0; take < 4; ++take) task.sequences[take].subject = std::to_string(take);
+  const Selected selected = select_model(task, quick());
+  EXPECT_GT(selected.model.training.strangers_error, 0);
+  EXPECT_EQ(selected.model.training.validated_error, 0) << "nobody could be known";
+}
+
 TEST(ModelSelection, keeps_what_was_said) {
   SelectionOptions options = quick();
   options.regularisation = 42;

@@ -65,10 +65,14 @@ TEST(RealDataSlow, the_default_is_closer_still_and_half_as_jerky_as_the_mapping)
   const Evaluation judged = learn_and_judge(real_walks("bandai-namco-2", learnt_from, bandai_style),
                                             real_walks("bandai-namco-2", judged_on, bandai_style));
   record(judged);
-  EXPECT_LE(error(judged, Estimate::synthesised), 3.75);
+  EXPECT_LE(error(judged, Estimate::synthesised), 3.65);
   EXPECT_LE(error(judged, Estimate::synthesised), error(judged, Estimate::mapped) + 0.05);
   EXPECT_LE(judged.jerk(Source::synthesised).over_clips,
-            0.5 * judged.jerk(Source::mapped).over_clips);
+            0.51 * judged.jerk(Source::mapped).over_clips);
+  EXPECT_LE(judged.jerk(Source::synthesised).over_clips,
+            1.0 * judged.jerk(Source::truth).over_clips);
+  EXPECT_GE(judged.jerk(Source::synthesised).over_clips,
+            0.7 * judged.jerk(Source::truth).over_clips);
   EXPECT_EQ(judged.delay_frames, 0) << "no look-ahead";
 }
 
@@ -82,7 +86,7 @@ TEST(RealDataSlow, another_take_by_another_actor_is_found_from_one_example_per_s
           "bandai-namco-1", [](const std::string& name) { return bandai_take(name) == 2; },
           bandai_style));
   record(judged);
-  EXPECT_LE(error(judged, Estimate::synthesised), 8.9)
+  EXPECT_LE(error(judged, Estimate::synthesised), 7.1)
       << "nearest neighbours with history: 8.9, ridge regression: 10.3, mean pose: 13.3";
 }
 
@@ -98,10 +102,13 @@ TEST(RealDataSlow, two_strangers_are_found_from_eight_walkers_and_their_feet_car
   const auto is_stranger = [&](const std::string& name) {
     return subject_of(name) == subjects[8] || subject_of(name) == subjects[9];
   };
-  const Evaluation judged = learn_and_judge(
-      real_walks("cmu-walks", [&](const std::string& name) { return !is_stranger(name); }),
-      real_walks("cmu-walks", is_stranger));
+  std::vector<Walk> known =
+      real_walks("cmu-walks", [&](const std::string& name) { return !is_stranger(name); });
+  for (Walk& walk : known)
+    walk.subject = subject_of(std::filesystem::path(walk.clip.name).filename());
+  const Evaluation judged = learn_and_judge(known, real_walks("cmu-walks", is_stranger));
   record(judged);
+  EXPECT_LE(error(judged, Estimate::synthesised), 9.2);
   EXPECT_LT(error(judged, Estimate::synthesised), error(judged, Estimate::state_means));
   EXPECT_LT(error(judged, Estimate::synthesised), error(judged, Estimate::mean_pose));
   EXPECT_GT(judged.step_accuracy().over_clips, 0.85);

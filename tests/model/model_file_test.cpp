@@ -61,6 +61,7 @@ TEST_F(ModelFile, a_model_without_body_styles_or_outputs_is_kept_as_well) {
   model.output = {};
   model.output_scaling = {};
   model.output_mean.resize(0);
+  model.training.target.conservativeResize(model.input.size());
   const int inputs = model.input.size();
   model.input_mean.resize(0);
   for (Label& label : model.labels) {

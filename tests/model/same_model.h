@@ -110,8 +110,9 @@ inline void expect_same(const Hinge& a, const Hinge& b) {
 }
 
 inline void expect_same(const Body& a, const Body& b) {
-  const auto& [skeleton, roles, references, input_joints, output_joints, heading_window, hinges] =
-      a;
+  const auto& [skeleton, roles, references, input_joints, output_joints, heading_window, hips_frame,
+               hinges] = a;
+  expect_same(hips_frame, b.hips_frame);
   expect_same(skeleton.joints, b.skeleton.joints);
   expect_same(roles, b.roles);
   expect_same(references, b.references);
@@ -122,8 +123,10 @@ inline void expect_same(const Body& a, const Body& b) {
 }
 
 inline void expect_same(const PlayDefaults& a, const PlayDefaults& b) {
-  const auto& [decoder, lag, temper, past, future, strength, style_memory, style_temper,
-               usual_distance] = a;
+  const auto& [decoder, lag, temper, past, future, easing, strength, trust, style_memory,
+               style_temper, usual_distance] = a;
+  expect_same(easing, b.easing);
+  expect_same(trust, b.trust);
   expect_same(decoder, b.decoder);
   expect_same(lag, b.lag);
   expect_same(temper, b.temper);
@@ -136,8 +139,14 @@ inline void expect_same(const PlayDefaults& a, const PlayDefaults& b) {
 }
 
 inline void expect_same(const Training& a, const Training& b) {
-  const auto& [date, comment, clips, regularisation, chosen_by, likelihood, penalised, error,
-               step_accuracy, style_accuracy, calibration_error, synthetic] = a;
+  const auto& [date, comment, clips, subjects, regularisation, target, placement, chosen_by,
+               likelihood, penalised, error, step_accuracy, style_accuracy, calibration_error,
+               strangers_error, strangers_step_accuracy, synthetic] = a;
+  expect_same(subjects, b.subjects);
+  expect_same(target, b.target);
+  expect_same(placement, b.placement);
+  expect_same(strangers_error, b.strangers_error);
+  expect_same(strangers_step_accuracy, b.strangers_step_accuracy);
   expect_same(date, b.date);
   expect_same(comment, b.comment);
   expect_same(clips, b.clips);
@@ -225,7 +234,8 @@ inline void expect_same(const Model& a, const Model& b) {
   expect_same(frame_rate, b.frame_rate);
   expect_same(inputs, b.inputs);
   expect_same(outputs, b.outputs);
-  const auto& [input_values, input_modelled, lags] = input;
+  const auto& [input_values, input_modelled, lags, clip] = input;
+  expect_same(clip, b.input.clip);
   expect_same(input_values, b.input.values);
   expect_same(input_modelled, b.input.modelled);
   expect_same(lags, b.input.lags);

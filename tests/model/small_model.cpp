@@ -48,6 +48,7 @@ Body small_body() {
   body.input_joints = {2, 1};
   body.output_joints = {3};
   body.heading_window = 1.07;
+  body.hips_frame = 0.06;
   body.hinges = {{0, 1, 2, Eigen::Vector3d(0.6, 0, 0.8), -0.1, 1.3}};
   return body;
 }
@@ -83,7 +84,12 @@ Model learnt_model() {
   Model model = learn(task, options).model;
   model.name = "sinusoids";
   model.body = small_body();
-  model.play = {DecoderKind::lag, 0.2, 0.3, 0.7, 0.1, 1.5, 0.8, 0.03};
+  model.input.clip = 9.5;
+  model.play = {DecoderKind::lag, 0.2, 0.3, 0.7, 0.1, 2.2, 1.5, 1.7, 0.8, 0.03};
+  model.training.subjects = {"anna", "bert"};
+  model.training.placement = 0.01;
+  model.training.strangers_error = 0.09;
+  model.training.strangers_step_accuracy = 0.8;
   model.training.date = "2024-02-29";
   model.training.comment = "sinusoids with noise";
   model.training.regularisation_chosen_by = "hand";

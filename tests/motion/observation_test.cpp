@@ -102,5 +102,45 @@ TEST(Observation, without_history_is_the_frame_itself) {
   EXPECT_EQ(observer.scaled(), Eigen::Vector2d(2, 2));
 }
 
+TEST(Observation, clips_what_moves_more_than_was_taught_and_nothing_else) {
+  InputLayout layout{4, {0, 1, 2, 3}, {}};
+  const Scaling none{Eigen::Vector4d::Zero(), Eigen::Vector4d::Ones()};
+  const double values[] = {0.5, -4.5, 1, 3};
+  InputObserver<double> unclipped(layout, none);
+  unclipped.advance(values);
+  EXPECT_FALSE(unclipped.clipped());
+  EXPECT_EQ(unclipped.scaled(), Eigen::Vector4d(0.5, -4.5, 1, 3));
+
+  layout.clip = 3.5;
+  InputObserver<double> clipping(layout, none);
+  clipping.advance(values);
+  EXPECT_TRUE(clipping.clipped());
+  EXPECT_NEAR(clipping.scaled()[1], -3.5, 0.4) << "the whole is hardly further off than usual";
+  EXPECT_EQ(clipping.scaled()[0], 0.5);
+  EXPECT_EQ(clipping.scaled()[3], 3);
+  EXPECT_EQ(clipping.unclipped(), unclipped.scaled());
+  EXPECT_EQ(clipping.raw(), unclipped.raw());
+}
+
+TEST(Observation, as_the_whole_leaves_what_was_taught_what_deviates_most_counts_least) {
+  InputLayout layout{2, {0, 1}, {}};
+  layout.clip = 3.5;
+  InputObserver<float> observer(layout, {Eigen::Vector2d::Zero(), Eigen::Vector2d::Ones()});
+  float before = 0;
+  for (const float entry : {1.0f, 3.0f, 3.5f, 3.6f, 5.0f, 8.0f, 20.0f, 100.0f, 1e4f}) {
+    const float values[] = {entry, -1};
+    observer.advance(values);
+    const float left = observer.scaled()[0];
+    EXPECT_EQ(observer.scaled()[1], -1);
+    EXPECT_LE(left, 3.5f);
+    EXPECT_GT(left, 0);
+    EXPECT_LT(std::abs(left - before), 2.1f) << "without a jump at " << entry;
+    if (entry >= 20) {
+      EXPECT_LT(left, 0.2f) << entry;
+    }
+    before = left;
+  }
+}
+
 }  // namespace
 }  // namespace gait

@@ -75,7 +75,7 @@ inline Computed computed(const Eigen::MatrixXf& inputs, float strength) {
   for (int frame = 0; frame < inputs.cols(); ++frame) {
     recogniser.advance({inputs.col(frame).data(), static_cast<std::size_t>(inputs.rows())});
     const OutputGaussian& gaussian =
-        map.map(recogniser.states(), recogniser.scaled(), recogniser.known());
+        map.map(recogniser.states(), recogniser.unclipped(), recogniser.known());
     std::vector<float> row(2 + 6 * output.values, 0.0f);
     row[0] = 0, row[1] = static_cast<float>(output.values);
     for (int value = 0; value < output.values; ++value)

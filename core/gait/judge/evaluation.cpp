@@ -84,6 +84,10 @@ class Evaluator {
     EvaluatedClip result;
     result.name = clip.name;
     result.style = walk.style;
+    result.subject = walk.subject;
+    result.subject_known =
+        !walk.subject.empty() && std::ranges::find(model_->training.subjects, walk.subject) !=
+                                     model_->training.subjects.end();
     compare(truth, result);
     compare_roots(clip, clip_roles, matched, track, poses, result);
     // Contacts at the clip's own rate: between its frames they are surest.

@@ -28,6 +28,8 @@ constexpr std::string_view estimate_name(Estimate estimate) {
 // Sums over frames, from which both kinds of means come.
 struct EvaluatedClip {
   std::string name, style;
+  std::string subject;                       // empty: not named
+  bool subject_known = false;                // the model was learnt from this subject, too
   int frames = 0;                            // between first and last contact
   double right_steps = 0, right_styles = 0;  // frames
   bool style_known = false;                  // the clip's style is one of the model's
@@ -67,6 +69,9 @@ struct Evaluation {
 
   // Angle to the truth, mean over the counted streams; of the clips in one style if it is named.
   Means error(Estimate estimate, const std::string& style = {}) const;
+  // The same of the clips of people whom the model was learnt from, or of others; clips that name
+  // no subject are in neither.
+  Means error_of_people(Estimate estimate, bool known) const;
   Means stream_error(Estimate estimate, int stream) const;  // angle
   Means step_accuracy() const;                              // share of frames
   Means style_accuracy() const;            // share of frames of the clips with a known style

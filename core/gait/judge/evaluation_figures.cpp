@@ -49,6 +49,17 @@ Means Evaluation::error(Estimate estimate, const std::string& style) const {
       });
 }
 
+Means Evaluation::error_of_people(Estimate estimate, bool known) const {
+  return averaged(
+      clips,
+      [&](const EvaluatedClip& clip) {
+        return counted_mean(clip.angle_sums[static_cast<int>(estimate)], counted);
+      },
+      [&](const EvaluatedClip& clip) {
+        return !clip.subject.empty() && clip.subject_known == known ? clip.frames : 0;
+      });
+}
+
 Means Evaluation::stream_error(Estimate estimate, int stream) const {
   return averaged(
       clips,

@@ -8,33 +8,13 @@
 #include <numeric>
 
 #include "gait/error.h"
-#include "gait/judge/calibration.h"
-#include "gait/judge/played_sequence.h"
+#include "gait/judge/folds.h"
 #include "gait/learn/parallel.h"
 #include "gait/learn/phase_statistics.h"
 
 namespace gait {
 
 namespace {
-
-// Sequences dealt to folds style by style, so that each fold has some of every style.
-std::vector<std::vector<int>> deal(const std::vector<ObservedSequence>& sequences, int folds) {
-  std::vector<int> order(sequences.size());
-  std::iota(order.begin(), order.end(), 0);
-  std::stable_sort(order.begin(), order.end(),
-                   [&](int a, int b) { return sequences[a].style < sequences[b].style; });
-  std::vector<std::vector<int>> dealt(folds);
-  for (std::size_t i = 0; i < order.size(); ++i) dealt[i % folds].push_back(order[i]);
-  return dealt;
-}
-
-// What playing held-out sequences showed.
-struct Held {
-  std::vector<double> errors;  // mean over frames, per sequence
-  std::vector<double> label_accuracies;
-  std::vector<PlayedSequence> played;
-  std::vector<int> sequence;
-};
 
 class Selection {
  public:
@@ -47,6 +27,9 @@ class Selection {
     learnt_ = learn_with(rounds, regularisation, 0, 0.3);
     selected_.folds =
         std::min<int>(options_.folds, static_cast<int>(learnt_.observed.sequences.size()));
+    subjects_ = subjects_of(task_, learnt_.observed.sequences);
+    if (const int subjects = std::ranges::max(subjects_) + 1; subjects > 1)
+      selected_.subjects = subjects;
     if (selected_.folds < 2) {
       selected_.folds = 0;
       return finish(regularisation, options_.regularisation
@@ -55,6 +38,7 @@ class Selection {
     }
     if (!options_.regularisation) regularisation = choose_regularisation(rounds);
     if (!options_.rounds) choose_rounds(regularisation);
+    if (selected_.subjects > 0 && task_.body) choose_hips_frame(regularisation);
     calibrate(regularisation);
     return finish(regularisation, options_.regularisation ? "given" : "cross-validation");
   }
@@ -88,8 +72,18 @@ class Selection {
     return rest;
   }
 
+  // Those that choices are made by.
   void gather_folds(const Learnt& learnt) {
-    folds_ = deal(learnt.observed.sequences, selected_.folds);
+    gather_folds(learnt, selected_.subjects > 0 ? deal_by_subject(subjects_, options_.subject_folds)
+                                                : clip_folds());
+  }
+
+  std::vector<Fold> clip_folds() const {
+    return deal_by_style(learnt_.observed.sequences, selected_.folds);
+  }
+
+  void gather_folds(const Learnt& learnt, std::vector<Fold> dealt) {
+    folds_ = std::move(dealt);
     fold_statistics_.clear();
     const int styles = static_cast<int>(task_.styles.size());
     for (const auto& fold : folds_)
@@ -102,12 +96,14 @@ class Selection {
   }
 
   // Plays one fold's sequences by a model that has not seen them.
-  Held play_held_out(const Learnt& learnt, int fold, double regularisation,
-                     const PlayDefaults& play) const {
+  HeldOut play_held_out(const Learnt& learnt, int fold, double regularisation,
+                        const PlayDefaults& play, std::optional<double> hips_frame = {}) const {
     auto model = std::make_shared<Model>(learnt.model);
     model->play = play;
+    model->play.trust.reset();  // what is usual is not known yet
+    if (hips_frame) model->body->hips_frame = *hips_frame;
     const auto rest = without(all_statistics_, fold_statistics_[fold]);
-    Held held;
+    HeldOut held;
     for (const StateStatistics& state : rest)
       if (state.count < 1) return held;  // a state that only this fold has passed through
     set_states(*model, learnt.table, rest, learnt.states.stay, learnt.states.target, regularisation,
@@ -135,26 +131,39 @@ class Selection {
   template <typename Choice, typename Play>
   std::vector<double> errors_of(const std::vector<Choice>& choices, Play play) {
     const int folds = static_cast<int>(folds_.size());
-    std::vector<std::vector<double>> errors(choices.size());
+    std::vector<std::vector<std::pair<int, double>>> errors(choices.size());  // with the sequence
     std::mutex adding;
-    in_parallel(
-        static_cast<int>(choices.size()) * folds, options_.learning.hmm.threads, [&](int job) {
-          if (options_.learning.hmm.cancel.requested()) throw Error("cancelled");
-          const std::size_t choice = job / folds;
-          const Held held = play(choices[choice], job % folds);
-          const std::scoped_lock lock(adding);
-          errors[choice].insert(errors[choice].end(), held.errors.begin(), held.errors.end());
-        });
+    in_parallel(static_cast<int>(choices.size()) * folds, options_.learning.hmm.threads,
+                [&](int job) {
+                  if (options_.learning.hmm.cancel.requested()) throw Error("cancelled");
+                  const std::size_t choice = job / folds;
+                  const HeldOut held = play(choices[choice], job % folds);
+                  const std::scoped_lock lock(adding);
+                  for (std::size_t i = 0; i < held.errors.size(); ++i)
+                    errors[choice].emplace_back(held.sequence[i], held.errors[i]);
+                });
     std::vector<double> means;
     for (auto& of_choice : errors) {
       // Sorted, so that the order in which folds ended does not change the sum.
       std::sort(of_choice.begin(), of_choice.end());
-      // None held out could be played: nothing speaks for this choice.
-      means.push_back(of_choice.empty() ? std::numeric_limits<double>::infinity()
-                                        : std::accumulate(of_choice.begin(), of_choice.end(), 0.0) /
-                                              static_cast<double>(of_choice.size()));
+      means.push_back(mean_of(of_choice));
     }
     return means;
+  }
+
+  // Over sequences or, where subjects are left out, over the subjects' own means. Infinite when
+  // none held out could be played: nothing speaks for this choice.
+  double mean_of(const std::vector<std::pair<int, double>>& errors) const {
+    if (errors.empty()) return std::numeric_limits<double>::infinity();
+    std::vector<double> sums(std::max(1, selected_.subjects), 0.0), counts(sums.size(), 0.0);
+    for (const auto& [sequence, error] : errors) {
+      const std::size_t of = selected_.subjects > 0 ? subjects_[sequence] : 0;
+      sums[of] += error, counts[of] += 1;
+    }
+    double sum = 0, heard = 0;
+    for (std::size_t i = 0; i < sums.size(); ++i)
+      if (counts[i] > 0) sum += sums[i] / counts[i], heard += 1;
+    return sum / heard;
   }
 
   double choose_regularisation(int rounds) {
@@ -164,11 +173,31 @@ class Selection {
       return play_held_out(learnt_, fold, kappa, learnt_.model.play);
     });
     for (std::size_t i = 0; i < errors.size(); ++i)
-      selected_.trials.push_back({options_.regularisations[i], rounds, errors[i]});
+      add_trial(options_.regularisations[i], rounds, learnt_.model, errors[i]);
     const auto best = std::min_element(errors.begin(), errors.end()) - errors.begin();
     // Where labels occur in one sequence only nothing can be held out.
     return std::isfinite(errors[best]) ? options_.regularisations[best]
                                        : options_.learning.hmm.regularisation;
+  }
+
+  void add_trial(double regularisation, int rounds, const Model& model, double error) {
+    selected_.trials.push_back(
+        {regularisation, rounds, model.body ? model.body->hips_frame : 0, error});
+  }
+
+  // By how much bodies' frames of the hips differ, from what strangers' legs show of it.
+  void choose_hips_frame(double regularisation) {
+    report(0.88, "cross-validating the hips' frame");
+    gather_folds(learnt_);
+    const auto errors = errors_of(options_.hips_frames, [&](double hips_frame, int fold) {
+      return play_held_out(learnt_, fold, regularisation, learnt_.model.play, hips_frame);
+    });
+    double& chosen = learnt_.model.body->hips_frame;
+    const auto best = std::min_element(errors.begin(), errors.end()) - errors.begin();
+    const int rounds = static_cast<int>(learnt_.states.log_likelihood.size());
+    for (std::size_t i = 0; i < errors.size(); ++i)
+      selected_.trials.push_back({regularisation, rounds, options_.hips_frames[i], errors[i]});
+    if (std::isfinite(errors[best])) chosen = options_.hips_frames[best];
   }
 
   void choose_rounds(double regularisation) {
@@ -185,7 +214,7 @@ class Selection {
           errors_of(std::vector<double>{regularisation}, [&](double kappa, int fold) {
             return play_held_out(candidate, fold, kappa, candidate.model.play);
           }).front();
-      selected_.trials.push_back({regularisation, rounds, error});
+      add_trial(regularisation, rounds, candidate.model, error);
       if (best < 0 || error < best) best = error, best_learnt = std::move(candidate);
     }
     learnt_ = std::move(best_learnt);
@@ -208,61 +237,61 @@ class Selection {
     // With a temper of one the logarithm of a posterior is the score but for a constant.
     PlayDefaults untempered = play;
     untempered.style_temper = probing_temper;
-    std::vector<Held> folds(folds_.size());
-    in_parallel(static_cast<int>(folds.size()), options_.learning.hmm.threads, [&](int fold) {
-      folds[fold] = play_held_out(learnt_, fold, regularisation, untempered);
-    });
-    validate(folds);
+    std::vector<HeldOut> folds = play_folds(regularisation, untempered);
+    set_what_is_usual(learnt_.model, folds, judged_styles());
+    Training& training = learnt_.model.training;
+    if (selected_.subjects > 0) {
+      const HeldFigures strangers = figures_of(folds, weights(false), judged_styles());
+      training.strangers_error = strangers.error;
+      training.strangers_step_accuracy = strangers.step_accuracy;
+      gather_folds(learnt_, clip_folds());
+      folds = play_folds(regularisation, untempered);
+    }
+    const HeldFigures known = figures_of(folds, weights(selected_.subjects > 0), judged_styles());
+    training.validated_error = known.error;
+    training.validated_step_accuracy = known.step_accuracy;
+    training.validated_style_accuracy = known.style_accuracy;
   }
 
-  void validate(const std::vector<Held>& folds) {
-    StyleScores scores;
-    std::vector<float> distances;
-    double error = 0, accuracy = 0, count = 0, right_styles = 0, styled = 0;
-    for (std::size_t fold = 0; fold < folds.size(); ++fold)
-      for (std::size_t i = 0; i < folds[fold].played.size(); ++i) {
-        error += folds[fold].errors[i];
-        accuracy += folds[fold].label_accuracies[i];
-        count += 1;
-        const PlayedSequence& played = folds[fold].played[i];
-        for (int frame = played.begin; frame < played.end; ++frame)
-          distances.push_back(played.decisions[frame].distance);
-        const int style = learnt_.observed.sequences[folds[fold].sequence[i]].style;
-        if (style < 0 || !taught_elsewhere(style, static_cast<int>(fold))) continue;
-        double right = 0;
-        for (int frame = played.begin; frame < played.end; ++frame) {
-          const Eigen::VectorXf posterior = played.style_posteriors.col(frame);
-          scores.scores.push_back(posterior.array().max(1e-30f).log() /
-                                  static_cast<float>(probing_temper));
-          scores.truth.push_back(style);
-          int best = 0;
-          posterior.maxCoeff(&best);
-          right += best == style;
-        }
-        right_styles += right / std::max(1, played.end - played.begin);
-        styled += 1;
+  std::vector<HeldOut> play_folds(double regularisation, const PlayDefaults& play) const {
+    std::vector<HeldOut> folds(folds_.size());
+    in_parallel(static_cast<int>(folds.size()), options_.learning.hmm.threads, [&](int fold) {
+      folds[fold] = play_held_out(learnt_, fold, regularisation, play);
+    });
+    return folds;
+  }
+
+  // Per sequence, how much it counts: all alike or, of strangers, each of these alike; with
+  // `only_known` those alone whose subject is known from another fold.
+  std::vector<double> weights(bool only_known) const {
+    std::vector<double> weights(subjects_.size(), 1.0);
+    for (std::size_t fold = 0; fold < folds_.size(); ++fold)
+      for (const int sequence : folds_[fold]) {
+        if (only_known)
+          weights[sequence] = known_elsewhere(sequence, fold) ? 1 : 0;
+        else if (selected_.subjects > 0)
+          weights[sequence] =
+              1.0 / static_cast<double>(std::ranges::count(subjects_, subjects_[sequence]));
       }
-    Training& training = learnt_.model.training;
-    training.validated_error = count > 0 ? error / count : 0;
-    training.validated_step_accuracy = count > 0 ? accuracy / count : 0;
-    training.validated_style_accuracy = styled > 0 ? right_styles / styled : 0;
-    PlayDefaults& play = learnt_.model.play;
-    if (!distances.empty()) {
-      const auto usual =
-          distances.begin() +
-          static_cast<std::ptrdiff_t>(usual_share * static_cast<double>(distances.size() - 1));
-      std::nth_element(distances.begin(), usual, distances.end());
-      play.usual_distance = std::max(1e-3f, *usual);
-    }
-    play.style_temper = best_temper(scores, play.style_temper);
-    CalibrationError calibration;
-    for (std::size_t i = 0; i < scores.truth.size(); ++i) {
-      const Eigen::ArrayXd tempered = play.style_temper * scores.scores[i].array().cast<double>();
-      int best = 0;
-      const double largest = tempered.maxCoeff(&best);
-      calibration.add(1 / (tempered - largest).exp().sum(), best == scores.truth[i]);
-    }
-    training.validated_calibration_error = calibration.value();
+    return weights;
+  }
+
+  // Per sequence, its style, if that is taught by other folds, too; else -1.
+  std::vector<int> judged_styles() const {
+    std::vector<int> styles(subjects_.size(), -1);
+    for (std::size_t fold = 0; fold < folds_.size(); ++fold)
+      for (const int sequence : folds_[fold]) {
+        const int style = learnt_.observed.sequences[sequence].style;
+        if (style >= 0 && taught_elsewhere(style, static_cast<int>(fold))) styles[sequence] = style;
+      }
+    return styles;
+  }
+
+  // Whether another fold has a sequence of the same subject.
+  bool known_elsewhere(int sequence, std::size_t fold) const {
+    const auto of_subject = [&](int other) { return subjects_[other] == subjects_[sequence]; };
+    return std::ranges::count(subjects_, subjects_[sequence]) >
+           std::ranges::count_if(folds_[fold], of_subject);
   }
 
   bool taught_elsewhere(int style, int fold) const {
@@ -285,14 +314,11 @@ class Selection {
     return std::move(selected_);
   }
 
-  // Small enough that posteriors stay above the least float, so that scores come back from them.
-  static constexpr double probing_temper = 0.01;
-  static constexpr double usual_share = 0.98;  // of held-out frames
-
   const LearningTask& task_;
   const SelectionOptions& options_;
   Learnt learnt_;
-  std::vector<std::vector<int>> folds_;
+  std::vector<Fold> folds_;
+  std::vector<int> subjects_;  // per observed sequence
   std::vector<std::vector<StateStatistics>> fold_statistics_;
   std::vector<StateStatistics> all_statistics_;
   Selected selected_;

@@ -50,6 +50,7 @@ std::vector<int> moving(const Eigen::VectorXd& deviation) {
 }
 
 Eigen::MatrixXd raw_inputs(const Sequence& sequence, const InputLayout& layout) {
+  // (Not clipped: it is not scaled yet.)
   Scaling none{Eigen::VectorXd::Zero(layout.size()), Eigen::VectorXd::Ones(layout.size())};
   InputObserver<double> observer(layout, none);
   Eigen::MatrixXd x(layout.size(), sequence.inputs.cols());
@@ -105,7 +106,8 @@ Eigen::MatrixXd with_differences(const Eigen::MatrixXd& values, const std::vecto
   return y;
 }
 
-ObservationSet observe(const std::vector<Sequence>& sequences, const std::vector<int>& lags) {
+ObservationSet observe(const std::vector<Sequence>& sequences, const std::vector<int>& lags,
+                       double clip) {
   ObservationSet set;
   const Moments inputs =
       moments_of(sequences, [](const Sequence& s) -> const Eigen::MatrixXd& { return s.inputs; });
@@ -136,6 +138,7 @@ ObservationSet observe(const std::vector<Sequence>& sequences, const std::vector
     sources.push_back(static_cast<int>(i));
   }
   if (raw.empty()) throw Error("expected sequences longer than their history; none is left");
+  set.input.clip = clip;
   set.input_scaling = scaling_of(raw, true, set.input.statics());
   set.output_scaling = scaling_of(raw, false, set.output.statics());
   for (std::size_t i = 0; i < raw.size(); ++i) {
@@ -147,6 +150,8 @@ ObservationSet observe(const std::vector<Sequence>& sequences, const std::vector
                                  .matrix());
     };
     observed.x = scaled(sequence.inputs, set.input_scaling);
+    for (int frame = 0; frame < observed.x.cols(); ++frame)
+      clip_observation(set.input, set.input.known(frame), observed.x.col(frame));
     observed.y = scaled(sequence.outputs, set.output_scaling);
     set.sequences.push_back(std::move(observed));
   }

@@ -28,7 +28,8 @@ Eigen::MatrixXd with_differences(const Eigen::MatrixXd& values, const std::vecto
 // Makes observations and scales them by their mean and deviation over the frames between each
 // sequence's first and last segment. Differences reach `lags` frames back. Frames without that
 // history, or without a neighbour for the output's differences, are left out, with their segments.
-// Throws Error when no input moves or when nothing is left.
-ObservationSet observe(const std::vector<Sequence>& sequences, const std::vector<int>& lags);
+// x is clipped at `clip` deviations. Throws Error when no input moves or when nothing is left.
+ObservationSet observe(const std::vector<Sequence>& sequences, const std::vector<int>& lags,
+                       double clip = InputLayout().clip);
 
 }  // namespace gait

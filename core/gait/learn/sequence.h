@@ -18,6 +18,7 @@ struct Sequence {
   Eigen::MatrixXd inputs, outputs;  // values by frames
   std::vector<Segment> segments;    // in order, each beginning where the one before ended
   int style = -1;                   // index into the styles, -1: none
+  std::string subject{};            // who moves; empty: unknown
 };
 
 // A take as scaled observations; columns are frames [first_frame, first_frame + columns).

@@ -46,10 +46,11 @@ void set_durations(Model& model, const ObservationSet& observed) {
   }
 }
 
-// Variance that sensors add to each entry of an observation, in the scale of the observation.
+}  // namespace
+
 // Without it a joint with a constant angle in each style would dominate the recognition of steps
-// and styles, and its slightest movement would look like another step or style. `placement`:
-// deviation of a sensor's placement, radians; it adds to poses, not to differences.
+// and styles, and its slightest movement would look like another step or style. Placement adds to
+// poses, not to differences.
 Eigen::VectorXd sensor_variance(const Model& model, double placement) {
   constexpr double sensor_deviation = 3e-4;  // radians: 0.02 degrees, the quiet of a still suit
   std::vector<bool> turns;                   // per value
@@ -68,8 +69,6 @@ Eigen::VectorXd sensor_variance(const Model& model, double placement) {
   }
   return variance;
 }
-
-}  // namespace
 
 void set_states(Model& model, const StateTable& table,
                 const std::vector<StateStatistics>& statistics, const std::vector<double>& stay,
@@ -108,7 +107,8 @@ void set_states(Model& model, const StateTable& table,
 Learnt learn(const LearningTask& task, const LearningOptions& options) {
   if (options.states < 1) throw Error("expected at least one state per label");
   Learnt learnt;
-  learnt.observed = observe(task.sequences, lags_at(options.history, task.frame_rate));
+  learnt.observed = observe(task.sequences, lags_at(options.history, task.frame_rate),
+                            task.body ? options.clip : InputLayout().clip);
   learnt.table = StateTable(std::vector<int>(task.labels.size(), options.states));
 
   Model& model = learnt.model;
@@ -122,6 +122,12 @@ Learnt learn(const LearningTask& task, const LearningOptions& options) {
   model.output_scaling = learnt.observed.output_scaling;
   model.output_mean = learnt.observed.output_mean;
   model.input_mean = learnt.observed.input_mean;
+  model.body = task.body;
+  if (model.body) {
+    model.body->hips_frame = options.hips_frame;
+    model.play.trust = options.trust;
+    model.play.easing = options.easing;
+  }
   for (const LabelPlan& plan : task.labels)
     model.labels.push_back({plan.name, plan.successors, {}, 0, 0, 0, 0, {}});
   set_durations(model, learnt.observed);
@@ -134,10 +140,17 @@ Learnt learn(const LearningTask& task, const LearningOptions& options) {
   set_phases(model, task.sequences, learnt.observed, learnt.table, learnt.states.alignments,
              options.hmm.regularisation);
   model.training.regularisation = options.hmm.regularisation;
+  model.training.target = learnt.states.target;
+  model.training.placement = options.placement;
   model.training.log_likelihood = learnt.states.log_likelihood;
   model.training.penalised_log_likelihood = learnt.states.penalised_log_likelihood;
-  for (const ObservedSequence& sequence : learnt.observed.sequences)
+  for (const ObservedSequence& sequence : learnt.observed.sequences) {
     model.training.clips.push_back(sequence.name);
+    const std::string& subject = task.sequences[sequence.source].subject;
+    std::vector<std::string>& subjects = model.training.subjects;
+    if (!subject.empty() && std::ranges::find(subjects, subject) == subjects.end())
+      subjects.push_back(subject);
+  }
   return learnt;
 }
 

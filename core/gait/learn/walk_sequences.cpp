@@ -285,6 +285,7 @@ WalkSequences walk_sequences(const std::vector<Walk>& walks, const WalkOptions& 
   for (std::size_t i = 0; i < seen.size(); ++i) {
     const Walk& walk = walks[result.walk_of_sequence[i]];
     Sequence sequence = walk_sequence(result.body, seen[i].poses, seen[i].contacts, walk.clip.name);
+    sequence.subject = walk.subject;
     if (!walk.style.empty()) {
       auto at = std::find(result.styles.begin(), result.styles.end(), walk.style);
       if (at == result.styles.end()) at = result.styles.insert(at, walk.style);

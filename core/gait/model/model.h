@@ -72,6 +72,9 @@ struct Body {
   std::vector<Eigen::Quaterniond> references;    // per joint, chordal mean over the training clips
   std::vector<int> input_joints, output_joints;  // indices, in the order of the streams
   double heading_window = 1.1;                   // seconds in a cycle: window of the causal heading
+  // Deviation per axis, radians, by which another body's frame of the hips may lie otherwise. The
+  // states' covariances are without it: it comes on top where they are played (model/hips_frame.h).
+  double hips_frame = 0;
   // Knees and elbows with the angles that they had in training. Empty in models of before there
   // were any.
   std::vector<Hinge> hinges{};
@@ -86,8 +89,14 @@ struct PlayDefaults {
   double temper = 0.1;  // exponent on emissions in the forward filter
   // Seconds of state queue before the current frame (P); none: all frames since the motion began.
   std::optional<double> past;
-  double future = 0;           // seconds after it (F)
-  double strength = 1;         // of the mapping
+  double future = 0;  // seconds after it (F)
+  // Factor on the variances of differences where a trajectory is solved. The equations suppose that
+  // the errors of statics and differences are independent; they are not, so 1 smooths too much.
+  double easing = 1;
+  double strength = 1;  // of the mapping
+  // Up to so many times the usual distance (below) an observation is mapped with all the strength;
+  // beyond, strength falls with the square of its distance. None: never.
+  std::optional<double> trust;
   double style_memory = 1;     // seconds over which style scores leak
   double style_temper = 0.02;  // exponent on style likelihoods
   // Decision::distance that 98 % of what was held out stayed below: beyond it, a motion is unlike
@@ -99,13 +108,21 @@ struct PlayDefaults {
 struct Training {
   std::string date, comment;
   std::vector<std::string> clips;
-  double regularisation = 30;  // kappa
+  std::vector<std::string> subjects;  // of the clips that name one, each once
+  double regularisation = 30;         // kappa
+  // What covariances were shrunk towards and by what the sensors' placement was widened: with kappa
+  // and the states' weights, all that later frames need to be merged in. Empty in models of before.
+  Eigen::VectorXd target;  // diagonal of T, over z
+  double placement = 0;    // radians
   std::string regularisation_chosen_by;
   std::vector<double> log_likelihood, penalised_log_likelihood;  // per iteration
   double validated_error = 0;          // mean angle of output joints on held-out clips, radians
   double validated_step_accuracy = 0;  // shares, 0 when not validated
   double validated_style_accuracy = 0;
   double validated_calibration_error = 0;
+  // The same of people left out, where clips name their subjects: all that the figures above mean
+  // is then people whom the model knows. 0 when not validated.
+  double strangers_error = 0, strangers_step_accuracy = 0;
   bool synthetic = false;
 };
 

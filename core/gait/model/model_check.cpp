@@ -187,6 +187,7 @@ void check_body(const Body& body, const Model& model) {
   check_side(body.input_joints, model.inputs, "body.input_joints");
   check_side(body.output_joints, model.outputs, "body.output_joints");
   expect_within(body.heading_window, 1e-3, longest_delay, "body.heading_window");
+  expect_within(body.hips_frame, 0, std::numbers::pi / 2, "body.hips_frame");
   check_hinges(body);
 }
 
@@ -197,16 +198,24 @@ void check_play(const PlayDefaults& play) {
   expect_within(play.temper, 0, 1000, "play.temper");
   if (play.past) expect_within(*play.past, 0, longest_delay, "play.past");
   expect_within(play.future, 0, longest_delay, "play.future");
+  expect_within(play.easing, 1e-3, 1e6, "play.easing");
   expect_within(play.strength, -1000, 1000, "play.strength");
+  if (play.trust) expect_within(*play.trust, 1e-3, 1e6, "play.trust");
   expect_within(play.style_memory, 0, 1e6, "play.style_memory");
   expect_within(play.style_temper, 0, 1000, "play.style_temper");
   expect_within(play.usual_distance, 1e-6, 1e6, "play.usual_distance");
 }
 
-void check_training(const Training& training) {
+void check_training(const Training& training, const Model& model) {
+  if (training.target.size() > 0) {
+    expect_values(training.target, model.input.size() + model.output.size(), 1, "training.target");
+    if (!(training.target.array() > 0).all()) fail("training.target", "variances above zero");
+  }
+  expect_within(training.placement, 0, std::numbers::pi, "training.placement");
   expect_text(training.date, "training.date");
   expect_text(training.comment, "training.comment");
   expect_texts(training.clips, "training.clips");
+  expect_texts(training.subjects, "training.subjects");
   expect_text(training.regularisation_chosen_by, "training.regularisation_chosen_by");
   expect_within(training.regularisation, 0, largest_number, "training.regularisation");
   for (const double value : training.log_likelihood)
@@ -217,6 +226,8 @@ void check_training(const Training& training) {
   expect_within(training.validated_step_accuracy, 0, 1, "training.validated_step_accuracy");
   expect_within(training.validated_style_accuracy, 0, 1, "training.validated_style_accuracy");
   expect_within(training.validated_calibration_error, 0, 1, "training.validated_calibration_error");
+  expect_within(training.strangers_error, 0, largest_number, "training.strangers_error");
+  expect_within(training.strangers_step_accuracy, 0, 1, "training.strangers_step_accuracy");
 }
 
 }  // namespace
@@ -230,6 +241,8 @@ void check_model(const Model& model) {
   check_modelled(model.output.modelled, model.output.values, "output.modelled");
   if (model.input.modelled.empty()) fail("input.modelled", "at least one value, found none");
   check_lags(model);
+  if (!(model.input.clip > 0))
+    fail("input.clip", "deviations above zero, found " + std::to_string(model.input.clip));
   check_scaling(model.input_scaling, model.input.size(), "input_scaling");
   check_scaling(model.output_scaling, model.output.size(), "output_scaling");
   expect_values(model.output_mean, model.output.values, 1, "output_mean");
@@ -240,7 +253,7 @@ void check_model(const Model& model) {
   if (model.body) check_body(*model.body, model);
   check_cycle_spaces(model);
   check_play(model.play);
-  check_training(model.training);
+  check_training(model.training, model);
 }
 
 }  // namespace gait

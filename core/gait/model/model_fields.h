@@ -31,6 +31,7 @@ void fields_of(auto& file, PartOf<InputLayout> auto& layout, double frame_rate) 
   file("values", layout.values);
   file("modelled", layout.modelled);
   file.lags("history", layout.lags, frame_rate);
+  file.optional("clip", layout.clip, layout.clips());
 }
 
 void fields_of(auto& file, PartOf<OutputLayout> auto& layout) {
@@ -107,6 +108,7 @@ void fields_of(auto& file, PartOf<Body> auto& body) {
   file("input_joints", body.input_joints);
   file("output_joints", body.output_joints);
   file("heading_window", body.heading_window);
+  file.optional("hips_frame", body.hips_frame, body.hips_frame > 0);
   file.optional("hinges", body.hinges, true);
 }
 
@@ -172,7 +174,9 @@ void fields_of(auto& file, PartOf<PlayDefaults> auto& play) {
   file("temper", play.temper);
   file.optional("past", play.past, play.past.has_value());
   file("future", play.future);
+  file.optional("easing", play.easing, play.easing != 1);
   file("strength", play.strength);
+  file.optional("trust", play.trust, play.trust.has_value());
   file("style_memory", play.style_memory);
   file("style_temper", play.style_temper);
   file("usual_distance", play.usual_distance);
@@ -182,14 +186,20 @@ void fields_of(auto& file, PartOf<Training> auto& training) {
   file("date", training.date);
   file("comment", training.comment);
   file("clips", training.clips);
+  file.optional("subjects", training.subjects, !training.subjects.empty());
   file("regularisation", training.regularisation);
   file("regularisation_chosen_by", training.regularisation_chosen_by);
+  file.optional("target", training.target, training.target.size() > 0);
+  file.optional("placement", training.placement, training.placement > 0);
   file("log_likelihood", training.log_likelihood);
   file("penalised_log_likelihood", training.penalised_log_likelihood);
   file("validated_error", training.validated_error);
   file("validated_step_accuracy", training.validated_step_accuracy);
   file("validated_style_accuracy", training.validated_style_accuracy);
   file("validated_calibration_error", training.validated_calibration_error);
+  file.optional("strangers_error", training.strangers_error, training.strangers_error > 0);
+  file.optional("strangers_step_accuracy", training.strangers_step_accuracy,
+                training.strangers_step_accuracy > 0);
   file("synthetic", training.synthetic);
 }
 

@@ -67,7 +67,7 @@ std::vector<RecordedTake> read_takes(const std::filesystem::path& file_path) {
   std::string line;
   int number = 1;
   if (!std::getline(file, line) || line != first_line)
-    fail(path, number, "'" + std::string(first_line) + "'");
+    fail(path, number, std::string(1, '\'').append(first_line).append(1, '\''));
   std::vector<RecordedTake> takes;
   while (++number, std::getline(file, line)) {
     if (line.empty()) continue;

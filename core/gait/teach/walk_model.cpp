@@ -18,6 +18,7 @@ LearningTask walking_task(const WalkSequences& walks) {
                  {std::string(foot_name(Foot::left)), {0}}};
   task.styles = walks.styles;
   task.sequences = walks.sequences;
+  task.body = walks.body;
   return task;
 }
 
@@ -26,7 +27,6 @@ Selected select_walk_model(const WalkSequences& walks, const SelectionOptions& o
   Selected selected = select_model(walking_task(walks), options);
   Model& model = selected.model;
   model.name = origin.name;
-  model.body = walks.body;
   model.training.date = origin.date;
   model.training.comment = origin.comment;
   model.training.synthetic = origin.synthetic;

@@ -114,6 +114,45 @@ TEST(CovarianceMap, of_several_states_gives_the_moments_of_their_mixture) {
   expect_mapped(model, map.map(states, x, model.input.size()), mixture);
 }
 
+TEST(CovarianceMap, trusts_an_observation_less_the_further_it_is_from_what_was_taught) {
+  Model model = random_model();
+  model.play.trust = 1.5;
+  model.play.usual_distance = 0.8;
+  CovarianceMap map(model, make_state_tables(model));
+  const WeightedState state{0, 1};
+  const auto there = entries_there(model, model.input.size());
+  const Eigen::VectorXf mean = state_of(model, 0).mean.head(model.input.size()).cast<float>();
+  const Eigen::VectorXf away = random_vector(model.input.size(), 3);
+  for (const float far : {0.1f, 1.0f, 3.0f, 10.0f, 1000.0f}) {
+    const Eigen::VectorXf x = mean + far * away;
+    const OutputGaussian mapped = map.map({&state, 1}, x, model.input.size());
+    const double trust = std::pow(std::min(1.0, 1.5 * 0.8 / map.distance()), 2);
+    const Eigen::VectorXd strength = Eigen::VectorXd::Constant(model.output.size(), trust);
+    expect_mapped(model, mapped, mapped_directly(model, state_of(model, 0), x, there, strength));
+    if (far > 5) {
+      EXPECT_LT(trust, 0.2);
+    }
+  }
+}
+
+TEST(CovarianceMap, maps_what_is_clipped_and_says_how_far_it_was_before) {
+  Model model = random_model();
+  const Eigen::VectorXf x = 3 * random_vector(model.input.size(), 4);
+  const WeightedState state{0, 1};
+  CovarianceMap unclipped(model, make_state_tables(model));
+  unclipped.map({&state, 1}, x, model.input.size());
+  model.input.clip = 2;
+  Eigen::VectorXf held = x;
+  ASSERT_TRUE(clip_observation(model.input, model.input.size(), held));
+  CovarianceMap map(model, make_state_tables(model));
+  const OutputGaussian mapped = map.map({&state, 1}, x, model.input.size());
+  const Eigen::VectorXd one = Eigen::VectorXd::Ones(model.output.size());
+  expect_mapped(model, mapped,
+                mapped_directly(model, state_of(model, 0), held,
+                                entries_there(model, model.input.size()), one));
+  EXPECT_NEAR(map.distance(), unclipped.distance(), 1e-4 * unclipped.distance());
+}
+
 TEST(CovarianceMap, uses_what_is_known_and_there_and_nothing_else) {
   const Model model = random_model();
   const std::vector<bool> missing{false, false, false, true, false};

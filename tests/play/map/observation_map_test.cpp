@@ -60,7 +60,9 @@ TEST(ObservationMap, what_a_recogniser_sends_it_becomes_what_a_reconstructor_pla
       EXPECT_EQ(received.lag(), recogniser.lag());
       map_from(map, received);
       EXPECT_FLOAT_EQ(map.distance(), recogniser.decision().distance);
-      trajectory.push(modelled_of(map, *model));
+      OutputGaussian eased = modelled_of(map, *model);
+      eased.variance.tail(2 * model->output.statics()) *= static_cast<float>(model->play.easing);
+      trajectory.push(eased);
       const Eigen::MatrixXf statics = trajectory.generate();
       ASSERT_TRUE(made);
       for (int i = 0; i < model->output.statics(); ++i)
@@ -90,7 +92,7 @@ TEST(ObservationMap, follows_a_recogniser_that_loses_inputs) {
     // By the same tables, made by another.
     CovarianceMap direct(*model, recogniser.tables());
     const OutputGaussian& expected =
-        direct.map(recogniser.states(), recogniser.scaled(), recogniser.known());
+        direct.map(recogniser.states(), recogniser.unclipped(), recogniser.known());
     map_from(map, message);
     const OutputGaussian found = modelled_of(map, *model);
     EXPECT_LT((found.mean - expected.mean).cwiseAbs().maxCoeff(), 1e-6f);

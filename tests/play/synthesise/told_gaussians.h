@@ -36,7 +36,7 @@ inline std::vector<Told> told_gaussians(const std::shared_ptr<const Model>& mode
     observer.advance(frame_of(inputs, frame));
     decoder.advance(emissions.of(observer.scaled(), observer.known()));
     const OutputGaussian& gaussian =
-        map.map(decoder.weighted(), observer.scaled(), observer.known());
+        map.map(decoder.weighted(), observer.unclipped(), observer.known());
     Told of;
     of.means.assign(3 * values, 0.0f);
     of.variances.assign(3 * values, 0.0f);

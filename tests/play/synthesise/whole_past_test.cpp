@@ -114,7 +114,8 @@ TEST(WholePast, is_carried_exactly_through_strength_mask_decoder_and_model) {
         ValueGaussian& of = told[j].emplace_back();
         for (int part = 0; part < 3; ++part) {
           of.mean[part] = map.mean()[part * values + modelled[j]];
-          of.variance[part] = map.variance()[part * values + modelled[j]];
+          of.variance[part] = map.variance()[part * values + modelled[j]] *
+                              static_cast<float>(part == 0 ? 1 : model->play.easing);
         }
       }
     }

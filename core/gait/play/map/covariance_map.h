@@ -5,12 +5,14 @@
 //   variance  diag(Sigma_yy - s (2 - s) K Sigma_xy)
 //
 // Strength s: 0 the average walk, 1 the paper's mapping, above 1 a caricature. Of several weighted
-// states: the moments of the mixture.
+// states: the moments of the mixture. In a state from which the observation is further than is to
+// be trusted (PlayDefaults::trust), s falls with the square of the distance.
 #pragma once
 
 #include <Eigen/Core>
 #include <memory>
 #include <span>
+#include <vector>
 
 #include "gait/play/output_gaussian.h"
 #include "gait/play/recognise/decoder.h"
@@ -29,7 +31,7 @@ class CovarianceMap {
   float strength(int value) const noexcept { return strength_[value]; }
 
   // Maps the scaled observation `x`, of which `known` leading entries are real, in the states
-  // given.
+  // given. It need not be clipped yet.
   const OutputGaussian& map(std::span<const WeightedState> states,
                             const Eigen::Ref<const Eigen::VectorXf>& x, int known) noexcept;
 
@@ -43,16 +45,20 @@ class CovarianceMap {
   void use(const std::shared_ptr<const StateTables>& tables) noexcept { tables_ = tables; }
 
  private:
+  // `distances`: per state, where they are not those of the innovations.
   template <class InnovationOf>
   const OutputGaussian& mix(std::span<const WeightedState> states, int depth,
-                            InnovationOf innovation_of) noexcept;
+                            const float* distances, InnovationOf innovation_of) noexcept;
 
   std::shared_ptr<const StateTables> tables_;
   InputLayout layout_;
   Whitening whitening_;
+  Eigen::VectorXf clipped_;
+  std::vector<float> distances_;    // per state given
   Eigen::VectorXf scale_, offset_;  // from scaled y to the outputs' units
   int statics_;
-  Eigen::VectorXf strength_, certainty_;               // per entry of y: s, s (2 - s)
+  float trusted_;             // distance up to which the mapping has its full strength
+  Eigen::VectorXf strength_;  // per entry of y
   Eigen::VectorXf shift_, mean_, squares_, variance_;  // scratch over y
   OutputGaussian mapped_;
   float distance_ = 0;

@@ -1,5 +1,7 @@
 #include "gait/play/recognise/emissions.h"
 
+#include <cmath>
+
 namespace gait {
 
 Whitening::Whitening(int inputs)
@@ -20,6 +22,11 @@ Eigen::Map<const Eigen::VectorXf> Whitening::innovation(const PlayedState& state
                                                         int count) noexcept {
   state.whitener.apply(kept_.data(), count, innovation_.data());
   return {innovation_.data(), count};
+}
+
+float Whitening::distance(const PlayedState& state, int count) noexcept {
+  const float squared = state.whitener.apply(kept_.data(), count, innovation_.data());
+  return std::sqrt(squared / static_cast<float>(count));
 }
 
 Emissions::Emissions(std::shared_ptr<const StateTables> tables, const InputLayout& layout)

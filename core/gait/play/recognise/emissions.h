@@ -18,6 +18,8 @@ class Whitening {
   void take(const StateTables& tables, const Eigen::Ref<const Eigen::VectorXf>& x) noexcept;
   // The leading `count` entries of the state's innovation; valid until the next call.
   Eigen::Map<const Eigen::VectorXf> innovation(const PlayedState& state, int count) noexcept;
+  // Mahalanobis distance of as many entries from the state's mean, by the root of their number.
+  float distance(const PlayedState& state, int count) noexcept;
   // The kept entries of the observation taken, with room for whole panels.
   const Eigen::VectorXf& kept() const noexcept { return kept_; }
 

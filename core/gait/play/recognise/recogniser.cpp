@@ -41,6 +41,7 @@ Recogniser::Recogniser(const PlayModel& played, const RecogniserSettings& settin
       current_(tables_),
       observer_(model_->input, model_->input_scaling),
       emissions_(tables_, model_->input),
+      unclipped_(model_->input.size()),
       decoder_(decoder_for(*model_, settings, tables_)),
       phase_(*model_),
       late_whitening_(model_->input.size()),
@@ -54,6 +55,7 @@ Recogniser::Recogniser(const PlayModel& played, const RecogniserSettings& settin
       wanted_(values_.size(), false),
       masked_(values_.size(), false),
       states_(Decoder::most_weighted),
+      distances_(Decoder::most_weighted),
       seen_phases_(states_.size()) {
   set_bounds();
   clock_.set_walking(true);  // frames are a walk until standing shows
@@ -61,7 +63,7 @@ Recogniser::Recogniser(const PlayModel& played, const RecogniserSettings& settin
   unseen_.reserve(values_.size());
   note_unseen();
   Held empty;
-  empty.scaled = empty.raw = Eigen::VectorXf::Zero(model_->input.size());
+  empty.scaled = empty.unclipped = empty.raw = Eigen::VectorXf::Zero(model_->input.size());
   empty.squared_distances = Eigen::VectorXf::Zero(model_->states());
   ring_.assign(decoder_.lag() + 1, empty);
 }
@@ -153,6 +155,8 @@ bool Recogniser::advance(std::span<const float> values) noexcept {
   ++taken_;
   Held& frame = ring_[newest_];
   frame.scaled = observer_.scaled();
+  frame.unclipped = observer_.unclipped();
+  frame.clipped = observer_.clipped();
   frame.raw = observer_.raw();
   frame.known = observer_.known();
   decoder_.advance(emissions_.of(frame.scaled, frame.known));
@@ -183,11 +187,20 @@ void Recogniser::decide(int back, int state, std::span<const WeightedState> stat
   decision_.state = state - current_->first_state[decision_.label];
   decision_.log_likelihood = decoder_.log_likelihood();
   decision_.progress = progress;
-  decision_.distance = 0;
-  for (const WeightedState& weighted : states)
-    decision_.distance += weighted.weight * std::sqrt(frame.squared_distances[weighted.state] /
-                                                      static_cast<float>(frame.seen));
+  note_distances(frame);
   follow_phase();
+}
+
+void Recogniser::note_distances(const Held& frame) noexcept {
+  if (frame.clipped) unclipped_.take(*current_, frame.unclipped);
+  decision_.distance = 0;
+  for (int i = 0; i < state_count_; ++i) {
+    const int state = states_[i].state;
+    distances_[i] =
+        frame.clipped ? unclipped_.distance(current_->states[state], frame.seen)
+                      : std::sqrt(frame.squared_distances[state] / static_cast<float>(frame.seen));
+    decision_.distance += states_[i].weight * distances_[i];
+  }
 }
 
 // The phase that the decided states see in the observation.

@@ -39,7 +39,8 @@ struct Decision {
   float progress = 0;  // through the label, 0 to 1
   float phase = 0;     // through the cycle of labels, 0 to 1, smoothed by a phase clock
   float cadence = 0;   // labels per second; of a walk, steps per second
-  float distance = 0;  // of the observation from what was taught; about 1 for that
+  // Of the observation, as it was before it was clipped, from what was taught; about 1 for that.
+  float distance = 0;
 };
 
 class Recogniser {
@@ -61,11 +62,17 @@ class Recogniser {
   std::span<const WeightedState> states() const noexcept {
     return {states_.data(), static_cast<std::size_t>(state_count_)};
   }
+  // Of each of them, how far the observation is (as Decision::distance, which is their mean).
+  std::span<const float> distances() const noexcept {
+    return {distances_.data(), static_cast<std::size_t>(state_count_)};
+  }
   // One posterior per style; empty for models without styles.
   std::span<const float> styles() const noexcept { return styles_.posteriors(); }
-  // The observation as the model scales it, and in the streams' own units; of both the first
+  // The observation as the model scales it, clipped or not yet, and in the streams' own units; of
+  // each the first
   // `known` entries are real, the rest await their history.
   const Eigen::VectorXf& scaled() const noexcept { return held(decided_back_).scaled; }
+  const Eigen::VectorXf& unclipped() const noexcept { return held(decided_back_).unclipped; }
   const Eigen::VectorXf& observation() const noexcept { return held(decided_back_).raw; }
   int known() const noexcept { return held(decided_back_).known; }
   // Whether the emissions are still those of that observation, and then its innovation in a state:
@@ -103,8 +110,9 @@ class Recogniser {
 
  private:
   struct Held {  // what deciding later still needs of a frame
-    Eigen::VectorXf scaled, raw;
+    Eigen::VectorXf scaled, unclipped, raw;
     Eigen::VectorXf squared_distances;  // per state
+    bool clipped = false;
     int known = 0;
     int seen = 0;  // entries that the distances count
   };
@@ -116,6 +124,7 @@ class Recogniser {
   void note_unseen() noexcept;
   // Decides about the frame taken `back` frames ago.
   void decide(int back, int state, std::span<const WeightedState> states, float progress) noexcept;
+  void note_distances(const Held& frame) noexcept;
   void follow_phase() noexcept;
   PhaseEstimate phase_seen() noexcept;
   const Held& held(int back) const noexcept;
@@ -124,6 +133,7 @@ class Recogniser {
   std::shared_ptr<const StateTables> tables_, current_;
   InputObserver<float> observer_;
   Emissions emissions_;
+  Whitening unclipped_;
   Decoder decoder_;
   PhaseEstimator phase_;
   Whitening late_whitening_;  // of a frame decided later
@@ -147,6 +157,7 @@ class Recogniser {
   int decided_back_ = 0;         // of the last decision, counted from the last frame taken
   Decision decision_;
   std::vector<WeightedState> states_;
+  std::vector<float> distances_;
   int state_count_ = 0;
   std::vector<float> seen_phases_;  // scratch: one per decided state
   PhaseEstimate estimate_;

@@ -5,6 +5,7 @@
 #include <numbers>
 
 #include "gait/error.h"
+#include "gait/model/hips_frame.h"
 
 namespace gait {
 
@@ -23,7 +24,9 @@ void set_styles(PlayedState& played, const Eigen::MatrixXd& means, const Eigen::
   }
 }
 
-PlayedState played_state(const State& state, const StateTables& tables) {
+// `shift`: see hips_frame_shift.
+PlayedState played_state(const State& state, const StateTables& tables,
+                         const Eigen::MatrixXd& shift) {
   PlayedState played;
   const auto& kept = tables.kept;
   const int count = static_cast<int>(kept.size());
@@ -31,7 +34,9 @@ PlayedState played_state(const State& state, const StateTables& tables) {
   std::vector<int> outputs(tables.outputs);
   for (int i = 0; i < tables.outputs; ++i) outputs[i] = inputs + i;
 
-  const Eigen::LLT<Eigen::MatrixXd> cholesky(state.covariance(kept, kept));
+  const Eigen::MatrixXd seen = shift(kept, Eigen::all), sought = shift(outputs, Eigen::all);
+  const Eigen::LLT<Eigen::MatrixXd> cholesky(state.covariance(kept, kept) +
+                                             seen * seen.transpose());
   if (cholesky.info() != Eigen::Success)
     throw Error("expected positive definite covariances; one of the model's is not");
   const Eigen::MatrixXd lower = cholesky.matrixL();
@@ -39,14 +44,17 @@ PlayedState played_state(const State& state, const StateTables& tables) {
   cholesky.matrixL().solveInPlace(inverse);
   played.whitener = PackedMap(inverse, -inverse * state.mean(kept), PackedMap::Shape::lower);
   // G = Sigma_yx L^-T, in one product
-  const Eigen::MatrixXd gain = state.covariance(outputs, kept) * inverse.transpose();
+  const Eigen::MatrixXd gain =
+      (state.covariance(outputs, kept) + sought * seen.transpose()) * inverse.transpose();
   played.gain = PackedMap(gain, Eigen::VectorXd::Zero(tables.outputs), PackedMap::Shape::full);
   if (state.phase_covariance.size() > 0) {
     played.phase = static_cast<float>(state.phase);
     played.phase_gain = (inverse * state.phase_covariance(kept)).cast<float>();
   }
   played.output_mean = state.mean.tail(tables.outputs).cast<float>();
-  played.output_variance = state.covariance.diagonal().tail(tables.outputs).cast<float>();
+  played.output_variance =
+      (state.covariance.diagonal().tail(tables.outputs) + sought.cwiseAbs2().rowwise().sum())
+          .cast<float>();
 
   const auto depths = static_cast<Eigen::Index>(tables.depths.size());
   played.log_constant.resize(depths);
@@ -92,13 +100,14 @@ std::shared_ptr<const StateTables> make_state_tables(const Model& model,
     tables->depths.push_back(kept_statics * static_cast<int>(depth + 1));
   tables->outputs = model.output.size();
   tables->styles = static_cast<int>(model.styles.size());
+  const Eigen::MatrixXd shift = hips_frame_shift(model);
 
   for (std::size_t label = 0; label < model.labels.size(); ++label) {
     tables->first_state.push_back(static_cast<int>(tables->states.size()));
     tables->successors.push_back(model.labels[label].successors);
     float before = 0;
     for (const State& state : model.labels[label].states) {
-      PlayedState played = played_state(state, *tables);
+      PlayedState played = played_state(state, *tables, shift);
       played.label = static_cast<int>(label);
       played.before = before;
       before += played.mean_duration;

@@ -6,6 +6,7 @@ namespace gait {
 
 FedTrajectory::FedTrajectory(const Model& model, int past, int current, int future)
     : modelled_(model.output.modelled),
+      easing_(static_cast<float>(model.play.easing)),
       trajectory_(model.output.statics(), past, current, future),
       gaussian_{Eigen::VectorXf::Zero(model.output.size()),
                 Eigen::VectorXf::Ones(model.output.size())},
@@ -34,12 +35,14 @@ void FedTrajectory::resize(int past, int future) {
 
 bool FedTrajectory::push(std::span<const float> means, std::span<const float> variances) noexcept {
   const Eigen::Index values = values_.size(), moved = path_.rows();
-  for (Eigen::Index part = 0; part < 3; ++part)
+  for (Eigen::Index part = 0; part < 3; ++part) {
+    const float eased = part == 0 ? 1 : easing_;
     for (Eigen::Index i = 0; i < moved; ++i) {
       const auto at = static_cast<std::size_t>(part * values + modelled_[i]);
       gaussian_.mean[part * moved + i] = means[at];
-      gaussian_.variance[part * moved + i] = variances[at];
+      gaussian_.variance[part * moved + i] = eased * variances[at];
     }
+  }
   newest_ = (newest_ + 1) % static_cast<int>(told_.cols());
   told_.col(newest_) = Eigen::Map<const Eigen::VectorXf>(means.data(), values);
   trajectory_.push(gaussian_);

@@ -21,7 +21,8 @@ class FedTrajectory {
   FedTrajectory(const Model& model, int past, int current, int future);
 
   // Takes the next frame's Gaussian over all output values: statics, first, then second differences
-  // per frame. True when a frame leaves with it.
+  // per frame. The variances of differences are eased (PlayDefaults::easing). True when a frame
+  // leaves with it.
   bool push(std::span<const float> means, std::span<const float> variances) noexcept;
   // Releases the oldest frame held back, without a new one. False when none is held back.
   bool flush() noexcept;
@@ -47,6 +48,7 @@ class FedTrajectory {
   void leave(const Eigen::Ref<const Eigen::VectorXf>& modelled) noexcept;
 
   std::vector<int> modelled_;
+  float easing_;
   Trajectory trajectory_;
   OutputGaussian gaussian_;
   Eigen::MatrixXf told_;  // means of all output values: a ring of columns, one per frame held
