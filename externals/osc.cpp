@@ -6,9 +6,12 @@
 #include <vector>
 
 #include "gait/error.h"
+#include "gait/osc/forms.h"
+#include "gait/osc/frame_gatherer.h"
 #include "gait/osc/receiver.h"
 #include "objects.h"
 #include "osc_receivers.h"
+#include "osc_senders.h"
 #include "osc_voice.h"
 #include "pd/models.h"
 #include "pd/ticker.h"
@@ -27,13 +30,14 @@ class Osc final : public ModelUser, osc::FrameSink {
         in_(box),
         pose_(box),
         info_(box),
-        receivers_(box) {
+        receivers_(box),
+        senders_(box) {
     for (int at = arguments.is_word(0) ? 1 : 0; at < arguments.size(); ++at) {
       const std::string flag = arguments.symbol(at);
       if (flag == "-poly")
         count_ = arguments.integer(++at, 1, most_voices);
       else if (flag == "-blocking")
-        receivers_.set_blocking();
+        receivers_.set_blocking(), senders_.set_blocking();
       else
         arguments.fail_at(at, "-poly n or -blocking");
     }
@@ -50,6 +54,10 @@ class Osc final : public ModelUser, osc::FrameSink {
       close();
     else if (selector == "to")
       receivers_.to(arguments, -1);
+    else if (selector == "from")
+      senders_.from(arguments, -1);
+    else if (selector == "senders")
+      senders_.list(osc::Receiver::now(), info_);
     else if (selector == "calibrate")
       calibrate(arguments, -1);
     else if (selector == "yaw")
@@ -76,8 +84,10 @@ class Osc final : public ModelUser, osc::FrameSink {
       calibrate(message, voice);
     else if (message.selector() == "to")
       receivers_.to(message, voice);
+    else if (message.selector() == "from")
+      senders_.from(message, voice);
     else
-      message.fail("expected pose, root, calibrate or to after a performer's number");
+      message.fail("expected pose, root, calibrate, from or to after a performer's number");
   }
 
   void report_perf(const Arguments& arguments) {
@@ -88,7 +98,7 @@ class Osc final : public ModelUser, osc::FrameSink {
   void reset(const Arguments&) {
     settle_dropped();
     for (const auto& voice : voices_) voice->reset();
-    if (gatherer_) gatherer_.emplace(std::max(1, count_));
+    if (gatherer_) gather();
     counted_ = count_dropped();
   }
 
@@ -116,6 +126,7 @@ class Osc final : public ModelUser, osc::FrameSink {
       info_.send("listen");
     }
     receivers_.dump(info_);
+    senders_.dump(info_);
     info_.add(settings_.yaw).send("yaw");
     info_.add(settings_.jitter).send("jitter");
     info_.add(settings_.hold).send("hold");
@@ -149,7 +160,7 @@ class Osc final : public ModelUser, osc::FrameSink {
       else if (form)
         wanted.form = *form;
       else
-        arguments.fail_at(i, "any, or a form: vmc, natnet, neuron, kinect, gait");
+        arguments.fail_at(i, "any, or a form: " + osc::form_names_text());
     }
     if (receiver_ && wanted.port == listening_.port && wanted.any == listening_.any &&
         wanted.form == listening_.form)
@@ -164,7 +175,7 @@ class Osc final : public ModelUser, osc::FrameSink {
     }
     settle_dropped();
     receiver_ = std::move(opened);
-    gatherer_.emplace(std::max(1, count_));
+    gather();
     counted_ = count_dropped();
     listening_ = wanted;
     poll_.after(0);
@@ -175,9 +186,15 @@ class Osc final : public ModelUser, osc::FrameSink {
     settle_dropped();
     poll_.cancel();
     receiver_.reset();
+    senders_.use(nullptr);
     gatherer_.reset();
     counted_ = count_dropped();
     end_streams();
+  }
+
+  void gather() {
+    gatherer_.emplace(std::max(1, count_));
+    senders_.use(&*gatherer_);
   }
 
   void end_streams() {
@@ -245,6 +262,7 @@ class Osc final : public ModelUser, osc::FrameSink {
 
   void report(double now) {
     reported_ = now;
+    senders_.tell_left_out(now);
     const std::uint64_t before = told_dropped_;
     settle_dropped();
     if (dropped_ == before) return;
@@ -252,8 +270,8 @@ class Osc final : public ModelUser, osc::FrameSink {
     told_dropped_ = dropped_;
     slow_error().say([&] {
       return std::to_string(more) +
-             " events were dropped: faulty, of performers beyond the number asked for, of another "
-             "model, or too many at once";
+             " events were dropped: faulty, of another model, of too many senders, or too many at "
+             "once";
     });
     info_.add(static_cast<double>(dropped_)).send("dropped");
   }
@@ -279,6 +297,7 @@ class Osc final : public ModelUser, osc::FrameSink {
 
   Outlet in_, pose_, info_;
   OscReceivers receivers_;
+  OscSenders senders_;
   int count_ = 0;  // performers of -poly, 0: one without a number
   OscSettings settings_;
   osc::ReceiverSettings listening_;

@@ -4,6 +4,7 @@
 #include <span>
 
 #include "gait/error.h"
+#include "gait/osc/forms.h"
 
 namespace gait::pd {
 
@@ -24,8 +25,7 @@ void OscReceivers::to(const Arguments& arguments, int performer) {
   wanted.port = arguments.size() > 1 ? arguments.integer(1, 1, 65535) : 39539;
   if (arguments.size() > 2) {
     const auto form = osc::form_named(arguments.symbol(2));
-    if (!form || *form == osc::MocapForm::kinect)
-      arguments.fail_at(2, "vmc, natnet, neuron or gait");
+    if (!form || !osc::is_sent(*form)) arguments.fail_at(2, osc::form_names_text(true));
     wanted.form = *form;
   }
   if (std::ranges::any_of(receivers_, [&](const Receiver& known) { return known.is(wanted); }))

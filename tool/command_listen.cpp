@@ -9,6 +9,8 @@
 #include "gait/error.h"
 #include "gait/files/bvh.h"
 #include "gait/files/whole_file.h"
+#include "gait/osc/forms.h"
+#include "gait/osc/frame_gatherer.h"
 #include "gait/osc/receiver.h"
 #include "gait/osc/recording.h"
 #include "interrupt.h"
@@ -86,8 +88,8 @@ void add_options(CLI::App& app, ListenOptions& options) {
   add_output(app, "BVH", options.output, "BVH file to write, in metres");
   add_value(app, "--seconds", "S", options.seconds, "How long to listen (until Ctrl-C)")
       ->check(within(0.1, 36000));
-  add_choice(app, "--form", {"vmc", "natnet", "neuron", "kinect", "gait"}, options.form,
-             "Read only this form (whichever comes)");
+  add_choice(app, "--form", osc::form_names(), options.form,
+             "Read only this form (whichever comes): " + osc::form_names_text());
   app.add_flag("--any", options.any, "Receive from other machines too, not only from this one")
       ->default_str("");
   app.footer(R"(Examples:

@@ -1,7 +1,6 @@
 #include "gait/osc/destination.h"
 
 #include <fcntl.h>
-#include <netdb.h>
 #include <sys/socket.h>
 #include <unistd.h>
 
@@ -9,39 +8,65 @@
 #include <cstring>
 
 #include "gait/error.h"
+#include "gait/osc/sockets.h"
 
 namespace gait::osc {
 
+namespace {
+
+// A connected socket learns when an address refuses packets. Fails while there is no network.
+bool connect_to(int opened, const NetworkAddress& to) noexcept {
+  return connect(opened, reinterpret_cast<const sockaddr*>(&to.address), to.size) == 0;
+}
+
+}  // namespace
+
 Destination::Destination(const std::string& host, int port)
-    : name_(host + ":" + std::to_string(port)) {
+    : name_((host.find(':') == std::string::npos ? host : "[" + host + "]") + ":" +
+            std::to_string(port)) {
   if (port < 1 || port > 65535)
     throw Error(name_ + ": expected a port from 1 to 65535, got " + std::to_string(port));
-  addrinfo wanted{};
-  wanted.ai_family = AF_INET;
-  wanted.ai_socktype = SOCK_DGRAM;
-  addrinfo* found = nullptr;
-  const int result = getaddrinfo(host.c_str(), nullptr, &wanted, &found);
-  if (result != 0 || !found)
-    throw Error(name_ + ": no host of that name is found (" + gai_strerror(result) + ")");
-  std::memcpy(&address_, found->ai_addr, sizeof address_);
-  freeaddrinfo(found);
-  address_.sin_port = htons(static_cast<std::uint16_t>(port));
-  socket_ = socket(AF_INET, SOCK_DGRAM, 0);
-  if (socket_ < 0) throw Error(name_ + ": cannot open a socket: " + std::strerror(errno));
-  fcntl(socket_, F_SETFL, O_NONBLOCK);
-  fcntl(socket_, F_SETFD, FD_CLOEXEC);
-  const int yes = 1;  // allows broadcast: x.x.x.255
-  setsockopt(socket_, SOL_SOCKET, SO_BROADCAST, &yes, sizeof yes);
+  int reason = 0;
+  for (const NetworkAddress& to : addresses_of(host, port, name_)) {
+    const int opened = socket(to.address.ss_family, SOCK_DGRAM, 0);
+    if (opened < 0) {
+      reason = errno;
+      continue;
+    }
+    fcntl(opened, F_SETFL, O_NONBLOCK);
+    fcntl(opened, F_SETFD, FD_CLOEXEC);
+    const int yes = 1;  // allows broadcast: x.x.x.255
+    setsockopt(opened, SOL_SOCKET, SO_BROADCAST, &yes, sizeof yes);
+    connect_to(opened, to);
+    ways_.push_back({opened, to});
+  }
+  if (ways_.empty()) throw Error(name_ + ": cannot open a socket: " + std::strerror(reason));
 }
 
 Destination::~Destination() {
-  if (socket_ >= 0) close(socket_);
+  for (const Way& way : ways_) close(way.socket);
 }
 
 bool Destination::send(std::span<const std::byte> bytes) const noexcept {
-  return sendto(socket_, bytes.data(), bytes.size(), 0,
-                reinterpret_cast<const sockaddr*>(&address_),
-                sizeof address_) == static_cast<ssize_t>(bytes.size());
+  bool refused = false;
+  for (std::size_t tries = 0; tries < 2 * ways_.size(); ++tries) {
+    const std::size_t at = current_.load(std::memory_order_relaxed) % ways_.size();
+    const Way& way = ways_[at];
+    const auto sent = [&] {
+      return ::send(way.socket, bytes.data(), bytes.size(), 0) ==
+             static_cast<ssize_t>(bytes.size());
+    };
+    if (sent()) return true;
+    if (errno == EAGAIN || errno == EWOULDBLOCK || errno == EMSGSIZE) return false;
+    // An earlier packet's refusal is said at this one: it then goes to the next address. After any
+    // other failure the network may have changed since.
+    if (errno == ECONNREFUSED)
+      refused = true;
+    else if (connect_to(way.socket, way.to) && sent())
+      return true;
+    current_.store(at + 1, std::memory_order_relaxed);
+  }
+  return refused;
 }
 
 }  // namespace gait::osc

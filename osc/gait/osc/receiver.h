@@ -11,9 +11,11 @@
 #include "gait/osc/event_ring.h"
 #include "gait/osc/mocap_event.h"
 #include "gait/osc/mocap_reader.h"
+#include "gait/osc/sockets.h"
 
 namespace gait::osc {
 
+// From this machine, or from every one, over IPv4 and IPv6.
 struct ReceiverSettings {
   int port = 39539;                  // 0: any free one
   bool any = false;                  // from other machines too, not only this one
@@ -37,7 +39,7 @@ class Receiver final : EventSink {
   Receiver(const Receiver&) = delete;
   Receiver& operator=(const Receiver&) = delete;
 
-  int port() const noexcept { return port_; }
+  int port() const noexcept { return sockets_.port(); }
   // The next event, in the order of arrival; false when there is none. One thread at a time.
   bool pop(MocapEvent& event) noexcept { return ring_.pop(event); }
   Received received() const noexcept;
@@ -47,13 +49,14 @@ class Receiver final : EventSink {
 
  private:
   void run();
-  void receive_all(std::span<std::byte> buffer);
+  void receive_all(int socket, std::span<std::byte> buffer);
   void take(const MocapEvent& event) override;
-  void take_message(const OscMessage& message);
+  void take_packet(std::span<const std::byte> packet);
+  void count(Reading reading);
 
   MocapReader reader_;
   EventRing<MocapEvent> ring_;
-  int socket_ = -1, port_ = 0;
+  ListeningSockets sockets_;
   int wake_[2] = {-1, -1};  // a pipe: a byte in it ends the thread
   Arrival arrival_;
   std::atomic<std::uint64_t> packets_{0}, messages_{0}, unknown_{0}, faulty_{0}, dropped_{0};
