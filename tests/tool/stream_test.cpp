@@ -13,6 +13,8 @@
 #include "gait/files/bvh.h"
 #include "gait/motion/kinematics.h"
 #include "gait/motion/rotation.h"
+#include "gait/osc/destination.h"
+#include "gait/osc/packet_template.h"
 #include "gait/osc/receiver.h"
 #include "tool_runner.h"
 
@@ -116,6 +118,58 @@ TEST(StreamAndListen, say_what_is_wrong_in_one_line) {
           "is taken by another program");
   refused({"listen", free_port(), "-o", folder / "a.bvh", "--seconds", "0.2"}, 1, "no frame");
   EXPECT_FALSE(std::filesystem::exists(folder / "a.bvh"));
+}
+
+// A program that tracks arms and a face, as ../shared/cases/vmc-no-hips.py is one.
+class NoHips {
+ public:
+  explicit NoHips(const std::string& port) : to_("localhost", std::stoi(port)) {
+    for (const char* bone : {"Head", "LeftUpperArm"})
+      packets_.add("/VMC/Ext/Bone/Pos", "sfffffff", {bone});
+    packets_.add("/VMC/Ext/OK", "i");
+    packets_.add("/VMC/Ext/T", "f");
+  }
+  void send(int frame) {
+    const float turn = 0.01F * static_cast<float>(frame % 50);
+    packets_.set(std::vector<float>{0, 0, 0, turn, 0, 0, 1, 0, 0, 0, 0, turn, 0, 1, 1,
+                                    static_cast<float>(frame) / 60});
+    for (const auto& packet : packets_.packets()) to_.send(packet.bytes());
+  }
+  void run(double seconds) {
+    for (int frame = 0; frame < 60 * seconds; ++frame) {
+      send(frame);
+      std::this_thread::sleep_for(std::chrono::microseconds(16667));
+    }
+  }
+
+ private:
+  osc::Destination to_;
+  osc::PacketSequence packets_;
+};
+
+TEST(StreamAndListen, a_stream_without_hips_is_refused_with_the_bones_that_came) {
+  const TestFolder folder;
+  const std::string port = free_port();
+  std::thread sender([&] { NoHips(port).run(2.5); });
+  const ToolRun run = run_tool({"listen", port, "-o", folder / "a.bvh", "--seconds", "2"});
+  sender.join();
+  EXPECT_EQ(run.exit_code, 1);
+  EXPECT_NE(run.err.find("expected the bone Hips"), std::string::npos) << run.err;
+  EXPECT_NE(run.err.find("Head, LeftUpperArm (form vmc)"), std::string::npos) << run.err;
+}
+
+TEST(StreamAndListen, without_a_file_it_says_who_sends_what_and_how_evenly) {
+  const std::string port = free_port();
+  std::thread sender([&] { NoHips(port).run(3.5); });
+  const ToolRun run = run_tool({"listen", port, "--seconds", "3.2"});
+  sender.join();
+  EXPECT_EQ(run.exit_code, 0) << run.err;
+  EXPECT_NE(run.out.find("vmc: Head, LeftUpperArm\n"), std::string::npos) << run.out;
+  EXPECT_NE(run.out.find(" a second, 95 % of the gaps below"), std::string::npos) << run.out;
+  EXPECT_NE(run.out.find("2 bones; no Hips"), std::string::npos) << run.out;
+  EXPECT_NE(run.out.find("no legs"), std::string::npos) << run.out;
+  const ToolRun silent = run_tool({"listen", free_port(), "--seconds", "2.2"});
+  EXPECT_NE(silent.out.find("nothing comes"), std::string::npos) << silent.out;
 }
 
 TEST(StreamAndListen, end_cleanly_when_they_are_interrupted) {

@@ -89,6 +89,7 @@ bool CapturedFrame::take(const MocapEvent& event) noexcept {
     case MocapKind::rig:
       return take_joint(event);
     case MocapKind::clock:
+    case MocapKind::notice:
     case MocapKind::edge:
       break;
   }

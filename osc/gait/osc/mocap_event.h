@@ -23,8 +23,11 @@ enum class MocapKind : std::uint8_t {
   rig,     // a joint's parent and offset (own form)
   values,  // some values of a frame (own form)
   clock,   // the sender's clock, of the frame that ends next
+  notice,  // something that the user should know: `first` is a Notice
   edge     // a frame has ended; with the sender's clock where it is told together with that
 };
+
+enum class Notice : std::int16_t { none, rokoko_compressed };
 
 struct MocapEvent {
   static constexpr std::size_t name_size = 40;    // longer names are no joints

@@ -5,6 +5,7 @@
 #include <sys/socket.h>
 #include <unistd.h>
 
+#include <algorithm>
 #include <cerrno>
 #include <chrono>
 #include <cstring>
@@ -19,6 +20,7 @@ namespace gait::osc {
 namespace {
 
 constexpr std::size_t largest_packet = 65536;
+constexpr std::size_t most_unknown = 6;  // addresses to remember
 const ReceiverSettings& checked(const ReceiverSettings& settings) {
   if (settings.port < 0 || settings.port > 65535)
     throw Error("expected a port from 0 to 65535, got " + std::to_string(settings.port));
@@ -95,7 +97,9 @@ void Receiver::take_packet(std::span<const std::byte> packet) {
       [](void* self, const OscMessage& message) {
         auto& receiver = *static_cast<Receiver*>(self);
         receiver.messages_.fetch_add(1, std::memory_order_relaxed);
-        receiver.count(receiver.reader_.read(message, receiver.arrival_, receiver));
+        const Reading reading = receiver.reader_.read(message, receiver.arrival_, receiver);
+        receiver.count(reading);
+        if (reading == Reading::unknown) receiver.remember(message.path());
       },
       this);
   faulty_.fetch_add(static_cast<std::uint64_t>(content.faulty), std::memory_order_relaxed);
@@ -106,7 +110,38 @@ void Receiver::count(Reading reading) {
   if (reading == Reading::faulty) faulty_.fetch_add(1, std::memory_order_relaxed);
 }
 
+void Receiver::remember(std::string_view address) {
+  const std::lock_guard lock(unknown_mutex_);
+  if (unknown_addresses_.size() == most_unknown ||
+      std::ranges::find(unknown_addresses_, address) != unknown_addresses_.end())
+    return;
+  unknown_addresses_.emplace_back(address.substr(0, 80));
+}
+
+std::string Receiver::unknown_addresses() const {
+  const std::lock_guard lock(unknown_mutex_);
+  std::string text;
+  for (const std::string& address : unknown_addresses_)
+    text += (text.empty() ? ": " : ", ") + address;
+  return text;
+}
+
+std::string_view Receiver::notice() const noexcept {
+  switch (notice_.load(std::memory_order_relaxed)) {
+    case Notice::rokoko_compressed:
+      return "Rokoko Studio sends a compressed stream: in its Custom Streaming choose the format "
+             "'JSON v3', not a compressed one (LZ4)";
+    case Notice::none:
+      break;
+  }
+  return {};
+}
+
 void Receiver::take(const MocapEvent& event) {
+  if (event.kind == MocapKind::notice) {
+    notice_.store(static_cast<Notice>(event.first), std::memory_order_relaxed);
+    return;
+  }
   if (!ring_.push(event)) dropped_.fetch_add(1, std::memory_order_relaxed);
 }
 

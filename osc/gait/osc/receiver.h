@@ -5,8 +5,12 @@
 #include <atomic>
 #include <cstdint>
 #include <memory>
+#include <mutex>
 #include <span>
+#include <string>
+#include <string_view>
 #include <thread>
+#include <vector>
 
 #include "gait/osc/event_ring.h"
 #include "gait/osc/mocap_event.h"
@@ -43,6 +47,10 @@ class Receiver final : EventSink {
   // The next event, in the order of arrival; false when there is none. One thread at a time.
   bool pop(MocapEvent& event) noexcept { return ring_.pop(event); }
   Received received() const noexcept;
+  // What the user should know about the stream, as one sentence; empty: nothing.
+  std::string_view notice() const noexcept;
+  // ": /face/eyes, /face/mouth": some addresses of messages that move no body; empty without any.
+  std::string unknown_addresses() const;
 
   // The clock of arrivals, in seconds.
   static double now() noexcept;
@@ -53,6 +61,7 @@ class Receiver final : EventSink {
   void take(const MocapEvent& event) override;
   void take_packet(std::span<const std::byte> packet);
   void count(Reading reading);
+  void remember(std::string_view address);
 
   MocapReader reader_;
   EventRing<MocapEvent> ring_;
@@ -60,6 +69,9 @@ class Receiver final : EventSink {
   int wake_[2] = {-1, -1};  // a pipe: a byte in it ends the thread
   Arrival arrival_;
   std::atomic<std::uint64_t> packets_{0}, messages_{0}, unknown_{0}, faulty_{0}, dropped_{0};
+  std::atomic<Notice> notice_{Notice::none};
+  mutable std::mutex unknown_mutex_;  // not for Pd's thread while it plays
+  std::vector<std::string> unknown_addresses_;
   std::thread thread_;
 };
 
