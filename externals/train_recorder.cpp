@@ -30,6 +30,18 @@ std::string journal_path(const std::string& name) {
   return (folder / "gait" / (file + ".takes")).string();
 }
 
+namespace {
+
+RecordedTake piece_of(const RecordedTake& take, int from, int to) {
+  const auto width = static_cast<std::ptrdiff_t>(take.inputs + take.outputs);
+  RecordedTake piece{take.label, take.inputs, take.outputs, {}, {}};
+  piece.seconds.assign(take.seconds.begin() + from, take.seconds.begin() + to);
+  piece.values.assign(take.values.begin() + width * from, take.values.begin() + width * to);
+  return piece;
+}
+
+}  // namespace
+
 // Locked for as long as it is open.
 struct TakeRecorder::Journal {
   std::string path;
@@ -92,6 +104,7 @@ void TakeRecorder::start(const std::string& label, int inputs, int outputs) {
   recording_->label = label;
   recording_->inputs = inputs;
   recording_->outputs = outputs;
+  saved_ = -1;
   // Once, for the longest take: nothing is made at frame rate. The system gives it as it is used.
   recording_->seconds.reserve(most_frames);
   recording_->values.reserve(static_cast<std::size_t>(most_frames) *
@@ -118,14 +131,30 @@ std::shared_ptr<const RecordedTake> TakeRecorder::stop() {
     recording_.reset();
     return nullptr;
   }
+  save_until(recording_->frames());
+  write([](std::ostream& file) { write_take_end(file); });
   recording_->values.shrink_to_fit();
   recording_->seconds.shrink_to_fit();
   const std::shared_ptr<const RecordedTake> take = std::move(recording_);
   Takes next = takes_;
   next.push_back(take);
   change(std::move(next));
-  write(take);
   return take;
+}
+
+// All but the last frame: another one at the same time may replace it.
+void TakeRecorder::save() { save_until(recording_->frames() - 1); }
+
+void TakeRecorder::save_until(int ready) {
+  const RecordedTake& take = *recording_;
+  if (ready <= std::max(0, saved_)) return;
+  const bool first = saved_ < 0;
+  const int from = std::max(0, saved_);
+  write([piece = piece_of(take, from, ready), first](std::ostream& file) {
+    if (first) write_take_begin(piece, file);
+    write_frames(piece, file);
+  });
+  saved_ = ready;
 }
 
 void TakeRecorder::add_take(RecordedTake take) {
@@ -152,15 +181,15 @@ void TakeRecorder::change(Takes next) {
   takes_ = std::move(next);
 }
 
-void TakeRecorder::write(const std::shared_ptr<const RecordedTake>& take) {
+void TakeRecorder::write(std::function<void(std::ostream&)> what) {
   const auto failed = std::make_shared<bool>(false);
   Worker::get().run(
-      [take, failed, journal = journal_] {
+      [what = std::move(what), failed, journal = journal_] {
         *failed = true;
         if (!journal) return;
         std::ofstream file(journal->path, std::ios::app);
         if (!std::exchange(journal->begun, true)) write_takes_header(file);
-        write_take(*take, file);
+        what(file);
         file.flush();
         *failed = !file;
       },

@@ -305,6 +305,7 @@ void setup_viterbi() {
                 &Viterbi::set<&ViterbiSetting::on_lost>, &Viterbi::resend>(
           {"decoder", "mask", "rate", "memory", "margin", "hold", "timeout", "onlost", "resend"})
       .common()
+      .refuse_others()
       .dsp();
 }
 
