@@ -5,6 +5,7 @@
 #include <string>
 #include <vector>
 
+#include "gait/osc/forms.h"
 #include "gait/osc/humanoid_sender.h"
 #include "gait/osc/packet_template.h"
 
@@ -37,10 +38,15 @@ inline std::vector<Packet> honest_packets() {
   add("/gait/quat", "sfffffff", {"LeftArm"}, numbers);
   add("/gait/bone", "ssfff", {"LeftArm", "Spine2"}, numbers);
   add("/gait/joint", "sfff", {"Head"}, numbers);
-  osc::HumanoidSender sender(osc::MocapForm::natnet, {0, 1, 2, 3, 4, 5, 6, 7, 8, 9});
-  sender.pack({}, 0, 1);
-  for (const auto& packet : sender.packets())
-    packets.emplace_back(packet.bytes().begin(), packet.bytes().end());
+  std::vector<int> bones;
+  for (int bone = 0; bone < humanoid_bones; ++bone) bones.push_back(bone);
+  for (const osc::FormFacts& facts : osc::all_forms()) {
+    if (!facts.packer) continue;
+    osc::HumanoidSender sender(facts.form, bones);
+    sender.pack({}, 0, 0);
+    for (const auto& packet : sender.packets())
+      packets.emplace_back(packet.bytes().begin(), packet.bytes().end());
+  }
   return packets;
 }
 

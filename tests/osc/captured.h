@@ -26,7 +26,7 @@ class Listened final : public osc::EventSink, public osc::FrameSink {
   }
   void hear(std::span<const std::byte> packet, double time, const osc::SenderAddress& sender) {
     arrival = {time, sender};
-    if (packet.empty() || (packet[0] != std::byte{'/'} && packet[0] != std::byte{'#'})) {
+    if (!osc::is_osc(packet)) {
       count(reader.read(packet, arrival, *this));
       return;
     }

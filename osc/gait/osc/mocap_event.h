@@ -12,7 +12,19 @@
 namespace gait::osc {
 
 // The forms, in the order of the table in forms.cpp.
-enum class MocapForm : std::uint8_t { none, vmc, natnet, neuron, kinect, gait };
+enum class MocapForm : std::uint8_t {
+  none,
+  vmc,
+  natnet,
+  neuron,
+  kinect,
+  mocopi,
+  mvn,
+  rokoko,
+  mediapipe,
+  trackers,
+  gait
+};
 
 inline constexpr double not_sent = std::numeric_limits<double>::quiet_NaN();
 

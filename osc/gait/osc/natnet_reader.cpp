@@ -59,6 +59,7 @@ class NatnetReader final : public FormReader {
 
 Reading NatnetReader::read(const OscMessage& message, const Arrival& arrival, EventSink& sink) {
   std::string_view path = message.path();
+  if (path == "/frame/start" || path == "/frame/timecode" || path == "/f/s") return Reading::taken;
   if (path == "/frame/timestamp" || path == "/f/t") {
     const auto number = message.number(0);
     if (!number) return Reading::faulty;

@@ -1,4 +1,4 @@
-// The readers of the forms, each in a file of its name.
+// The readers of the forms, each in the file FORM_reader.cpp or FORM_form.cpp.
 #pragma once
 
 #include <memory>
@@ -12,5 +12,10 @@ Reading read_neuron(const OscMessage& message, const Arrival& arrival, EventSink
 Reading read_kinect(const OscMessage& message, const Arrival& arrival, EventSink& sink);
 Reading read_gait(const OscMessage& message, const Arrival& arrival, EventSink& sink);
 std::unique_ptr<FormReader> natnet_reader();
+std::unique_ptr<FormReader> mocopi_reader();
+std::unique_ptr<FormReader> mvn_reader();
+std::unique_ptr<FormReader> rokoko_reader();
+std::unique_ptr<FormReader> mediapipe_reader();
+std::unique_ptr<FormReader> trackers_reader();
 
 }  // namespace gait::osc

@@ -85,8 +85,7 @@ void Receiver::receive_all(int socket, std::span<std::byte> buffer) {
 }
 
 void Receiver::take_packet(std::span<const std::byte> packet) {
-  // OSC begins with an address or with "#bundle".
-  if (packet.empty() || (packet[0] != std::byte{'/'} && packet[0] != std::byte{'#'})) {
+  if (!is_osc(packet)) {
     const Reading reading = reader_.read(packet, arrival_, *this);
     messages_.fetch_add(reading == Reading::unknown ? 0 : 1, std::memory_order_relaxed);
     count(reading == Reading::unknown ? Reading::faulty : reading);
