@@ -136,9 +136,11 @@ TEST(StreamAndListen, six_poses_arrive_in_every_form_to_a_tenth_of_a_degree) {
                                     {}});
   clip.resize(15 * static_cast<int>(poses.size() + 1));
   for (int frame = 0; frame < clip.frames(); ++frame) {
-    // First the T-pose, from which the rig's own pose is judged.
+    // First the head the other way: what a rig's straight head is, is judged from the mean.
     const int which = frame / 15 - 1;
-    const HumanoidPose pose = which < 0 ? posed({}) : poses[static_cast<std::size_t>(which)];
+    const HumanoidPose pose =
+        which < 0 ? posed({{Bone::head, poses[3].turns[index_of(Bone::head)].conjugate()}})
+                  : poses[static_cast<std::size_t>(which)];
     for (int bone = 0; bone < main_bones; ++bone) clip.pose(frame)[bone] = pose.local_turn(bone);
     clip.translation(frame)[0] = pose.places[0];
   }
