@@ -41,6 +41,8 @@ class Osc final : public ModelUser, osc::FrameSink {
       else
         arguments.fail_at(at, "-poly n or -blocking");
     }
+    plain_.reserve(osc::most_values);
+    in_.reserve(osc::most_values + 8);
     join(info_);
   }
 
@@ -54,6 +56,8 @@ class Osc final : public ModelUser, osc::FrameSink {
       close();
     else if (selector == "to")
       receivers_.to(arguments, -1);
+    else if (selector == "outputs")
+      outputs(arguments);
     else if (selector == "from")
       senders_.from(arguments, -1);
     else if (selector == "senders")
@@ -235,6 +239,16 @@ class Osc final : public ModelUser, osc::FrameSink {
     });
   }
 
+  // What a patch has learnt, to those who take Wekinator's outputs.
+  void outputs(const Arguments& arguments) {
+    if (!receivers_.send_outputs(arguments)) {
+      if (receivers_.take_failure())
+        slow_error().say([] { return "to: the network did not take the outputs"; });
+      else
+        slow_error().say([] { return "outputs: expected 1 to 256 numbers"; });
+    }
+  }
+
   void frame(int performer, const osc::CapturedFrame& captured) noexcept override {
     if (performer < static_cast<int>(voices_.size())) voices_[performer]->take(captured);
   }
@@ -243,7 +257,9 @@ class Osc final : public ModelUser, osc::FrameSink {
     poll_.after(poll_interval);
     osc::MocapEvent event;
     for (int i = 0; i < most_events_a_poll && receiver_->pop(event); ++i)
-      if (model())
+      if (event.kind == osc::MocapKind::plain)
+        take_plain(event);
+      else if (model())
         gatherer_->take(event, *this);
       else if (event.kind == osc::MocapKind::edge)
         ready_for_frame();  // drops and counts it
@@ -258,6 +274,14 @@ class Osc final : public ModelUser, osc::FrameSink {
       voice->report(now, info_);
     }
     if (now - reported_ >= 1) report(now);
+  }
+
+  // `plain NAME x ...`, once all numbers of the stream are there.
+  void take_plain(const osc::MocapEvent& event) {
+    if (event.first == 0) plain_.clear();
+    plain_.insert(plain_.end(), event.numbers.begin(), event.numbers.begin() + event.count);
+    if (static_cast<int>(plain_.size()) != event.total) return;
+    in_.add(event.name.data()).add(std::span<const float>(plain_)).send("plain");
   }
 
   void report(double now) {
@@ -304,6 +328,7 @@ class Osc final : public ModelUser, osc::FrameSink {
   std::unique_ptr<osc::Receiver> receiver_;
   std::optional<osc::FrameGatherer> gatherer_;
   std::vector<std::shared_ptr<OscVoice>> voices_;
+  std::vector<float> plain_;  // of the stream that comes now
   Latency latency_;
   double reported_ = 0;
   std::uint64_t dropped_ = 0, told_dropped_ = 0, counted_ = 0;  // counted_: of count_dropped()

@@ -62,6 +62,12 @@ class Train final : public ModelOwner {
           "anything)");
     take_frame(arguments, given_);
   }
+  // A phone's stream from [gait.osc], with its name first.
+  void plain(const Arguments& arguments) {
+    if (arguments.size() < 1) arguments.fail("expected a name and numbers");
+    const auto atoms = arguments.atoms().subspan(1);
+    in(Arguments(box().name(), "plain", static_cast<int>(atoms.size()), atoms.data()));
+  }
   void pose(const Arguments& arguments) {
     if (!learns_walks()) arguments.fail("expected 'in': this box was made with -in");
     if (!recorder_->recording()) return;
@@ -306,6 +312,7 @@ void setup_train() {
       .message<&Train::in>("in")
       .list<&Train::in>()
       .messages<&Train::pass_over, &Train::pass_over, &Train::restore>({"root", "mask", "restore"})
+      .messages<&Train::plain>({"plain"})
       .messages<&Train::pose, &Train::record, &Train::stop, &Train::add, &Train::remove,
                 &Train::undo, &Train::train, &Train::cancel, &Train::write>(
           {"pose", "record", "stop", "add", "remove", "undo", "train", "cancel", "write"})

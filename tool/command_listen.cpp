@@ -39,40 +39,46 @@ class Recorder final : public osc::FrameSink {
     bones |= frame.rotated | frame.placed;
     recording.add(frame);
   }
+  void plain(const osc::MocapEvent&) { plain_only = true; }
   osc::Recording recording;
   osc::MocapForm first = osc::MocapForm::none;
   std::bitset<humanoid_bones> bones;
-  bool values_only = false;
+  bool values_only = false, plain_only = false;
 };
 
 // Why there is nothing to write.
 std::string no_body(const Recorder& recorder, const osc::Receiver& receiver) {
   const std::string port = "port " + std::to_string(receiver.port());
   if (recorder.values_only)
-    return port + ": only values of a model came (/gait/frame), which have no rig; send with "
-                  "--form gait or vmc";
+    return port +
+           ": only values of a model came (/gait/frame), which have no rig; send with "
+           "--form gait or vmc";
   if (recorder.bones.any())
     return port + ": expected the bone Hips, on which a body hangs, got without it: " +
            bone_list(recorder.bones) + " (form " + std::string(osc::form_name(recorder.first)) +
            "); does the sender track a whole body?";
+  if (recorder.plain_only)
+    return port + ": only streams of plain numbers came, as phones send them: they move no body";
   if (const std::string_view notice = receiver.notice(); !notice.empty())
     return port + ": " + std::string(notice);
-  return port + ": expected a body's motion, got " +
-         std::to_string(receiver.received().packets) + " packets and no frame" +
-         receiver.unknown_addresses();
+  return port + ": expected a body's motion, got " + std::to_string(receiver.received().packets) +
+         " packets and no frame" + receiver.unknown_addresses();
 }
 
 // Gives what comes to the sink until it is enough. `each_second` is called about once a second.
 template <class Sink, class EachSecond>
-void hear(const ListenOptions& options, const Interrupt& interrupt, osc::Receiver& receiver, osc::FrameGatherer& gatherer,
-          Sink& sink, EachSecond each_second) {
+void hear(const ListenOptions& options, const Interrupt& interrupt, osc::Receiver& receiver,
+          osc::FrameGatherer& gatherer, Sink& sink, EachSecond each_second) {
   std::fprintf(stderr, "gait listen: on port %d, until %sCtrl-C\n", receiver.port(),
                options.seconds ? "the time is up or " : "");
   osc::MocapEvent event;
   const double begin = osc::Receiver::now();
   double second = begin + 1;
   while (!interrupt.requested()) {
-    while (receiver.pop(event)) gatherer.take(event, sink);
+    while (receiver.pop(event)) {
+      if (event.kind == osc::MocapKind::plain) sink.plain(event);
+      gatherer.take(event, sink);
+    }
     const double now = osc::Receiver::now();
     gatherer.end_old(now, sink);
     if (now >= second) each_second(now), second += 1;
@@ -136,8 +142,8 @@ void add_options(CLI::App& app, ListenOptions& options) {
 }  // namespace
 
 Command listen_command(CLI::App& program) {
-  return make_command(program, "listen", "Watch or record live motion that comes over the network", add_options,
-                      listen);
+  return make_command(program, "listen", "Watch or record live motion that comes over the network",
+                      add_options, listen);
 }
 
 }  // namespace gait::tool

@@ -47,6 +47,12 @@ void LiveMonitor::frame(int performer, const osc::CapturedFrame& frame) noexcept
     seen.placed = frame.time;
 }
 
+void LiveMonitor::plain(const osc::MocapEvent& event) {
+  if (event.first == 0)
+    ++plain_[event.sender.name() + " " + std::string(osc::form_name(event.form)) + " plain " +
+             event.name.data() + ", " + std::to_string(event.total) + " numbers"];
+}
+
 std::vector<std::string> LiveMonitor::doubts(double now, const osc::FrameSource& source,
                                              const Seen& seen) {
   std::vector<std::string> doubts;
@@ -65,8 +71,8 @@ std::vector<std::string> LiveMonitor::doubts(double now, const osc::FrameSource&
     doubts.emplace_back(has(Bone::left_upper_arm) || has(Bone::right_upper_arm)
                             ? "no legs"
                             : "neither arms nor legs: a face tracker?");
-  if (space == osc::FormSpace::judged && frame.placed[0] &&
-      frame.places[0][2] > 0.6F && std::abs(frame.places[0][1]) < 0.4F)
+  if (space == osc::FormSpace::judged && frame.placed[0] && frame.places[0][2] > 0.6F &&
+      std::abs(frame.places[0][1]) < 0.4F)
     doubts.emplace_back("the hips' height seems to be along Z: set the sender to Y up");
   if (seen.last > 0 && now - seen.first > still_for && seen.last - seen.moved > still_for)
     doubts.emplace_back("nothing moves");
@@ -88,10 +94,10 @@ std::vector<std::string> LiveMonitor::lines(double now, const osc::FrameGatherer
     if (!source.used() || source.frames() == 0 || now - source.seen() > 1) continue;
     const osc::CapturedFrame& frame = source.frame();
     const std::string name = frame.sender.name();
-    const std::string bones = frame.joints > 0 ? std::to_string(frame.joints) + " joints"
-                                               : bone_list(source.bones());
-    const auto count = frame.joints > 0 ? static_cast<std::size_t>(frame.joints)
-                                        : source.bones().count();
+    const std::string bones =
+        frame.joints > 0 ? std::to_string(frame.joints) + " joints" : bone_list(source.bones());
+    const auto count =
+        frame.joints > 0 ? static_cast<std::size_t>(frame.joints) : source.bones().count();
     const std::string who = name + " " + std::string(osc::form_name(frame.form)) +
                             (frame.stream ? " #" + std::to_string(frame.stream) : "");
     if (std::string& told = told_bones_[who]; told != bones)
@@ -106,6 +112,9 @@ std::vector<std::string> LiveMonitor::lines(double now, const osc::FrameGatherer
     seen.longest = 0;
     lines.push_back(line);
   }
+  for (const auto& [stream, count] : plain_)
+    lines.push_back(stream + ": " + std::to_string(count) + " a second");
+  plain_.clear();
   const osc::Received received = receiver.received();
   if (received.faulty > before_.faulty)
     lines.push_back(std::to_string(received.faulty - before_.faulty) + " faulty messages");

@@ -17,6 +17,7 @@ std::string bone_list(const std::bitset<humanoid_bones>& bones);
 class LiveMonitor final : public osc::FrameSink {
  public:
   void frame(int performer, const osc::CapturedFrame& frame) noexcept override;
+  void plain(const osc::MocapEvent& event);
   // Lines for stdout. `now`: on the clock of arrivals.
   std::vector<std::string> lines(double now, const osc::FrameGatherer& gatherer,
                                  const osc::Receiver& receiver);
@@ -31,6 +32,7 @@ class LiveMonitor final : public osc::FrameSink {
 
   std::map<int, Seen> seen_;
   std::map<std::string, std::string> told_bones_;  // per sender
+  std::map<std::string, int> plain_;               // numbers of streams of this second
   osc::Received before_;
   bool waiting_told_ = false;
 };

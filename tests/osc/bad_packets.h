@@ -34,6 +34,12 @@ inline std::vector<Packet> honest_packets() {
   add("/motive/skeleton/id/bone", "sis", {"A", "LFArm"}, numbers);
   add("/perception_joint", "ifffffff", {}, numbers);
   add("/joint", "siifffff", {"l_knee"}, numbers);
+  add("/ZIGSIM/a/accel", "fff", {}, numbers);
+  add("/wek/inputs", "ffffffffff", {}, numbers);
+  add("/pose/left_knee", "ffff", {}, numbers);
+  const std::string phone = R"({"sensordata":{"accel":{"x":0,"y":0,"z":1}}})";
+  const auto bytes = std::as_bytes(std::span(phone));
+  packets.emplace_back(bytes.begin(), bytes.end());
   add("/gait/frame", "ffffffffff", {}, numbers);
   add("/gait/quat", "sfffffff", {"LeftArm"}, numbers);
   add("/gait/bone", "ssfff", {"LeftArm", "Spine2"}, numbers);

@@ -274,6 +274,44 @@ TEST(Suits, landmarks_come_in_one_message_or_one_by_one) {
   EXPECT_EQ(osc::landmark_named("rightWrist"), 16);
 }
 
+std::vector<float> numbers_of(const Listened& listened, const std::string& name) {
+  std::vector<float> numbers;
+  for (const auto& event : listened.events)
+    if (event.kind == osc::MocapKind::plain && name == event.name.data())
+      numbers.insert(numbers.end(), event.numbers.begin(), event.numbers.begin() + event.count);
+  return numbers;
+}
+
+TEST(Suits, phones_and_wekinators_inputs_are_plain_streams) {
+  Listened listened;
+  listened.hear(bytes_of_hex("2f5a494753494d2f61312f7175617465726e696f6e0000002c66666666000000"
+                             "0000000000000000000000003f800000"),
+                1);
+  listened.hear(bytes_of_hex("2f77656b2f696e70757473002c6666003f0000003f800000"), 1);
+  const std::string json =
+      R"({"device":{"uuid":"a1","os":"ios"},"timestamp":"2026-01-01T00:00:00.000",)"
+      R"("sensordata":{"accel":{"x":0,"y":0,"z":0.1}}})";
+  listened.hear(std::as_bytes(std::span(json)), 1);
+  listened.say("/gyrosc/rrate", "fff", {}, {1, 2, 3});
+  listened.say("/accxyz", "fff", {}, {4, 5, 6});
+  listened.say("/gyroscope", "fff", {}, {7, 8, 9});
+  EXPECT_EQ(numbers_of(listened, "quaternion"), (std::vector<float>{0, 0, 0, 1}));
+  EXPECT_EQ(numbers_of(listened, "wek"), (std::vector<float>{0.5F, 1}));
+  EXPECT_EQ(numbers_of(listened, "accel"), (std::vector<float>{0, 0, 0.1F}));
+  EXPECT_EQ(numbers_of(listened, "rrate"), (std::vector<float>{1, 2, 3}));
+  EXPECT_EQ(numbers_of(listened, "accxyz"), (std::vector<float>{4, 5, 6}));
+  EXPECT_EQ(numbers_of(listened, "gyroscope"), (std::vector<float>{7, 8, 9}));
+  EXPECT_EQ(listened.faulty + listened.unknown, 0);
+  EXPECT_TRUE(listened.frames.empty());
+  std::vector<float> many(40);
+  for (std::size_t i = 0; i < many.size(); ++i) many[i] = static_cast<float>(i);
+  Listened long_one;
+  long_one.say("/wek/inputs", std::string(40, 'f'), {}, many);
+  EXPECT_EQ(numbers_of(long_one, "wek"), many);
+  long_one.say("/accxyz", "sff", {"x"}, {1, 2});
+  EXPECT_EQ(long_one.faulty, 1);
+}
+
 class EachForm : public ::testing::TestWithParam<MocapForm> {};
 
 TEST_P(EachForm, six_poses_come_out_as_they_went_in) {

@@ -90,6 +90,7 @@ bool CapturedFrame::take(const MocapEvent& event) noexcept {
       return take_joint(event);
     case MocapKind::clock:
     case MocapKind::notice:
+    case MocapKind::plain:
     case MocapKind::edge:
       break;
   }

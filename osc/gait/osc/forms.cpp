@@ -46,6 +46,10 @@ constexpr std::array forms{
               "bridges of MediaPipe's landmarks", mediapipe_reader, mediapipe_packer},
     FormFacts{MocapForm::trackers, "trackers", FormSpace::world, 9000, false,
               "SlimeVR and VRChat: OSC trackers", trackers_reader, trackers_packer},
+    FormFacts{MocapForm::phone, "phone", FormSpace::own, 3333, false,
+              "phones: ZIG SIM, GyrOSC, TouchOSC, Sensors2OSC", phone_reader, nullptr},
+    FormFacts{MocapForm::wekinator, "wekinator", FormSpace::own, 6448, false,
+              "what sends inputs to Wekinator", message_reader<read_wekinator>, nullptr},
     FormFacts{MocapForm::gait, "gait", FormSpace::own, 0, false, "this project itself",
               message_reader<read_gait>, nullptr},
 };

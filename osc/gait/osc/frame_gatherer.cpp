@@ -111,6 +111,7 @@ int FrameGatherer::source_of(const MocapEvent& event) noexcept {
 }
 
 void FrameGatherer::take(const MocapEvent& event, FrameSink& sink) noexcept {
+  if (event.kind == MocapKind::plain || event.kind == MocapKind::notice) return;  // of no body
   if (event.kind == MocapKind::edge || event.kind == MocapKind::clock) {
     for (std::size_t i = 0; i < sources_.size(); ++i)
       if (sources_[i].is_sender(event) && sources_[i].take_edge(event))

@@ -23,6 +23,8 @@ enum class MocapForm : std::uint8_t {
   rokoko,
   mediapipe,
   trackers,
+  phone,
+  wekinator,
   gait
 };
 
@@ -34,6 +36,7 @@ enum class MocapKind : std::uint8_t {
   joint,   // a joint by its own name (own form)
   rig,     // a joint's parent and offset (own form)
   values,  // some values of a frame (own form)
+  plain,   // numbers of a stream that moves no body, with its name
   clock,   // the sender's clock, of the frame that ends next
   notice,  // something that the user should know: `first` is a Notice
   edge     // a frame has ended; with the sender's clock where it is told together with that
@@ -50,8 +53,9 @@ struct MocapEvent {
   bool placed = false, rotated = false;
   bool relative = false;     // joint: a rotation vector relative to the model's reference
   std::int16_t bone = -1;    // index of a humanoid's bone
-  std::int16_t first = 0;    // values: index of the first
-  std::int16_t count = 0;    // values: how many
+  std::int16_t first = 0;    // values, plain: index of the first
+  std::int16_t count = 0;    // values, plain: how many
+  std::int16_t total = 0;    // plain: how many the stream has
   std::uint32_t stream = 0;  // which skeleton or user of this sender
   SenderAddress sender;
   double time = 0;         // of arrival, seconds on a steady clock
