@@ -26,7 +26,7 @@ void OscReceivers::to(const Arguments& arguments, int performer) {
   if (arguments.size() > 2) {
     const auto form = osc::form_named(arguments.symbol(2));
     if (!form || (!osc::is_sent(*form) && *form != osc::MocapForm::wekinator))
-      arguments.fail_at(2, osc::form_names_text(true) + ", or wekinator for 'outputs'");
+      arguments.fail_at(2, osc::form_names_text(true) + "; or wekinator for 'outputs'");
     wanted.form = *form;
   }
   if (std::ranges::any_of(receivers_, [&](const Receiver& known) { return known.is(wanted); }))
