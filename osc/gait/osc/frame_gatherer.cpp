@@ -143,7 +143,7 @@ void FrameGatherer::end(int source, FrameSink& sink) noexcept {
 
 void FrameGatherer::end_old(double now, FrameSink& sink) noexcept {
   for (std::size_t i = 0; i < sources_.size(); ++i)
-    if (sources_[i].used() && now - sources_[i].frame().time > patience &&
+    if (sources_[i].used() && now - sources_[i].frame().time > sources_[i].patience(now) &&
         !sources_[i].frame().empty())
       end(static_cast<int>(i), sink);
 }

@@ -1,7 +1,7 @@
 // Frame gatherer: gathers the events of each sender into frames, and gives each performer a sender.
 //
 // A frame ends with the sender's message that ends it; without such messages, when what came first
-// comes again; and at the latest 10 ms after its first event. Sources of frames are distinguished
+// comes again; and at the latest some time after its first event (FrameSource::patience). Sources of frames are distinguished
 // by the sender's address and, within a sender, by skeleton or user. A performer keeps its source
 // until that has been silent for a second and another needs the slot, until the sender restarts
 // under another port or in another form, or until one comes that carries more: a body instead of a
@@ -22,7 +22,6 @@ class FrameSink {
 
 class FrameGatherer {
  public:
-  static constexpr double patience = 0.010;  // seconds after which an open frame ends
   static constexpr double silence = 1.0;     // seconds after which a slot may be reused
   static constexpr int spare_sources = 16;   // beyond the number of performers
 

@@ -55,12 +55,16 @@ bool FrameSource::paused(double now) const noexcept {
   return now - seen_ > std::max(0.1, 3 * usual);
 }
 
+bool FrameSource::says_ends(double now) const noexcept {
+  return facts_of(frame_.form).edges || now - edge_seen_ < lately;
+}
+
 // Where a sender says when its frames end, a bone that comes again replaces what came before: some
 // tell each hand twice. Else what came first in the frame begins the next one.
 bool FrameSource::ends_before(const MocapEvent& event) const noexcept {
   if (!any_told_ || !frame_.contains(event)) return false;
   if (event.kind == MocapKind::values) return true;
-  if (facts_of(frame_.form).edges || event.time - edge_seen_ < lately) return false;
+  if (says_ends(event.time)) return false;
   return event.kind == first_told_.kind && event.bone == first_told_.bone &&
          event.name == first_told_.name;
 }

@@ -34,6 +34,9 @@ class FrameSource {
   // Whether frames have stopped, for longer than they ever pause while they come.
   bool paused(double now) const noexcept;
 
+  // Seconds after which an open frame ends. A sender that says when its frames end may be held up
+  // in the midst of one, so it gets longer.
+  double patience(double now) const noexcept { return says_ends(now) ? 0.05 : 0.01; }
   // Whether the event ends the frame before it is taken.
   bool ends_before(const MocapEvent& event) const noexcept;
   // False: there is no room for a joint.
@@ -57,6 +60,7 @@ class FrameSource {
 
  private:
   static constexpr int most_times = 64;
+  bool says_ends(double now) const noexcept;
 
   bool used_ = false, hopping_ = false, clocked_ = false, again_ = false;
   double first_ = 0, seen_ = 0, edge_seen_ = -1e9, bones_since_ = 0;
