@@ -168,6 +168,10 @@ const std::vector<Scheme> schemes{
      "LeftShoulder LeftArm LeftForeArm LeftHand LeftUpLeg LeftLeg LeftFoot LeftToeBase",
      "RightShoulder RightArm RightForeArm RightHand RightUpLeg RightLeg RightFoot RightToeBase",
      "Hips/LHipJoint LeftHand/LThumb"},
+    {"CMU for 3ds Max", "Hips lowerback Chest Chest2 lowerneck Head",
+     "LeftCollar LeftShoulder LeftElbow LeftWrist LeftHip LeftKnee LeftAnkle LeftToe",
+     "RightCollar RightShoulder RightElbow RightWrist RightHip RightKnee RightAnkle RightToe",
+     "LeftWrist/LFingers LeftWrist/LThumb"},
     {"Vicon", "Pelvis Thorax Neck Head",
      "LClavicle LHumerus LRadius LHand LFemur LTibia LFoot LToes",
      "RClavicle RHumerus RRadius RHand RFemur RTibia RFoot RToes"},
@@ -325,6 +329,25 @@ TEST(NamingSchemes, are_understood_with_anything_added) {
         EXPECT_EQ(role_name(roles.of_joint[joint]), role_name(rig.expected[joint]))
             << scheme.maker << ": " << rig.skeleton.joints[joint].name;
     }
+}
+
+TEST(NamingSchemes, a_hip_above_a_hip_is_its_mount) {
+  Skeleton skeleton;
+  for (const auto& [name, parent] : {std::pair{"Hips", -1},
+                                     {"LHipJoint", 0},
+                                     {"LeftHip", 1},
+                                     {"LeftKnee", 2},
+                                     {"LeftAnkle", 3},
+                                     {"RHipJoint", 0},
+                                     {"RightHip", 5},
+                                     {"RightKnee", 6},
+                                     {"RightAnkle", 7}})
+    skeleton.joints.push_back({name, parent, {0, 0, 0}});
+  const JointRoles roles = find_roles(skeleton);
+  EXPECT_EQ(roles.left.thigh, 2);
+  EXPECT_EQ(roles.right.thigh, 6);
+  EXPECT_TRUE(roles.in_leg[1]);
+  EXPECT_EQ(roles.of_joint[1], Role::none);
 }
 
 TEST(NamingSchemes, the_same_word_means_what_the_other_names_make_of_it) {

@@ -5,6 +5,8 @@
 #include <filesystem>
 
 #include "gait/files/bvh.h"
+#include "gait/model/body_motion.h"
+#include "gait/model/model_file.h"
 #include "gait/motion/body_form.h"
 #include "gait/motion/humanoid_body.h"
 #include "gait/motion/kinematics.h"
@@ -98,13 +100,26 @@ TEST(StrangeRigs, what_is_measured_above_the_hips_stays) {
   }
 }
 
+// As [gait.bvh] reads a clip to play it.
+TEST(StrangeRigs, clips_are_played_on_the_body_that_was_learnt_from_them) {
+  const TestFolder folder;
+  for (const char* name : {"offsets-in-channels", "root-at-head", "armature-root-hips"}) {
+    const ToolRun train = train_quickly({rig(name)}, folder / "m.gait");
+    ASSERT_EQ(train.exit_code, 0) << train.err;
+    const BodyMotion motion = read_motion(rig(name), read_model(folder / "m.gait"));
+    EXPECT_TRUE(motion.warnings.empty()) << motion.warnings[0];
+    EXPECT_NEAR((motion.hips.back() - motion.hips.front()).norm(), 5.7, 0.05) << name;
+    EXPECT_EQ(motion.contacts.size(), 7u) << name;
+  }
+}
+
 TEST(StrangeRigs, learnt_walks_keep_trunk_and_legs_together) {
   const TestFolder folder;
   for (const char* name : {"offsets-in-channels", "root-at-head"}) {
-    const ToolRun train = train_quickly({rig(name)}, folder / "m.gait");
+    const ToolRun train = train_quickly({rig(name)}, folder / "m.gait", {"--label", "{style}.bvh"});
     ASSERT_EQ(train.exit_code, 0) << train.err;
-    const ToolRun synth =
-        run_tool({"synth", folder / "m.gait", "--seconds", "5", "-o", folder / "out.bvh"});
+    const ToolRun synth = run_tool(
+        {"synth", folder / "m.gait", "--style", name, "--seconds", "5", "-o", folder / "out.bvh"});
     ASSERT_EQ(synth.exit_code, 0) << synth.err;
     const Seen made(folder / "out.bvh");
     EXPECT_NEAR(made.leg, 0.83, 0.01) << name;

@@ -53,7 +53,7 @@ class NameSet {
       case Part::centre:
         return Part::hips;
       case Part::hip_or_thigh:
-        return rig_has(Part::thigh) ? Part::unknown : Part::thigh;
+        return rig_has(Part::thigh) || above_another_hip(joint) ? Part::unknown : Part::thigh;
       case Part::leg:
         if (rig_has(Part::thigh) || any_above(joint, Part::hip_or_thigh)) return Part::shank;
         return rig_has(Part::shank) ? Part::thigh : Part::shank;
@@ -72,6 +72,16 @@ class NameSet {
     return std::ranges::any_of(meanings_, [&](const NameMeaning& other) {
       return other.side == side && other.part == part && !other.twist;
     });
+  }
+
+  // "LHipJoint" is only the mount of "LeftHip".
+  bool above_another_hip(int joint) const {
+    const NameMeaning& mine = meanings_[joint];
+    for (int other = joint + 1; other < skeleton_.size(); ++other)
+      if (meanings_[other].part == mine.part && meanings_[other].side == mine.side &&
+          !meanings_[other].twist && skeleton_.is_in_branch(other, joint))
+        return true;
+    return false;
   }
 
   // Names without a tree (all joints roots) lie anywhere.
