@@ -56,12 +56,18 @@ ReadClip read_clip(const std::filesystem::path& path, const ClipReading& reading
   ReadClip read;
   read.file = read_bvh(path);
   print_warnings(command, read.file.warnings);
-  const Clip in_file = clip_from_bvh(read.file);
-  read.roles = find_roles(in_file.skeleton, table);
-  read.frame = guess_body_frame(in_file, read.roles, said_of_frame(reading));
+  const BodyForm form = body_form(clip_from_bvh(read.file), table);
+  read.roles = find_roles(form.clip, table);
+  read.re_rooted = form.re_rooted;
+  // What is not understood comes before what follows from it.
+  if (const std::string missing = missing_roles(read.roles); !missing.empty())
+    print_warnings(command, {path.string() + ": no joint is understood as " + missing +
+                             "; 'gait roles' shows what is, and -o writes a file for --roles"});
+  print_warnings(command, form.warnings);
+  read.frame = guess_body_frame(form.clip, read.roles, said_of_frame(reading));
   print_warnings(command, read.frame.warnings);
-  read.clip = in_metres_y_up(in_file, read.frame);
-  read.roles_without_joint = names_not_in(in_file.skeleton, table);
+  read.clip = in_metres_y_up(form.clip, read.frame);
+  read.roles_without_joint = names_not_in(form.clip.skeleton, table);
   return read;
 }
 

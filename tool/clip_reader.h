@@ -8,6 +8,7 @@
 #include <vector>
 
 #include "gait/files/bvh.h"
+#include "gait/motion/body_form.h"
 #include "gait/motion/body_frame.h"
 #include "gait/motion/clip.h"
 #include "gait/motion/joint_roles.h"
@@ -33,8 +34,9 @@ void print_warnings(const std::string& command, const std::vector<std::string>& 
 
 struct ReadClip {
   BvhFile file;  // as it is written
-  Clip clip;     // metres, Y up
+  Clip clip;     // metres, Y up, in body form (motion/body_form.h)
   JointRoles roles;
+  bool re_rooted = false;  // the file's root was not the hips
   BodyFrame frame;
   std::vector<std::string> roles_without_joint;  // names of --roles that this clip does not have
 };

@@ -48,9 +48,10 @@ void add_options(CLI::App& app, ReconstructOptions& options) {
   add_argument(app, "CLIP", options.clip, "BVH file");
   add_output(app, "BVH", options.output,
              "BVH file to write: same skeleton, rate and frames, input joints untouched");
-  add_choice(app, "--root", {"feet", "keep"}, options.root,
-             "Where the hips go: feet (as the found feet carry them, from the origin ahead) or "
-             "keep (place and heading of the clip)");
+  add_choice(
+      app, "--root", {"feet", "keep"}, options.root,
+      "Where the hips go: feet (as the found feet carry them, from the origin ahead; below a "
+      "measured head or chest, along its heading) or keep (place and heading of the clip)");
   add_value(app, "--csv", "FILE", options.table,
             "Table to write, a row per frame: time, step, state, log-likelihood, phase, cadence, "
             "style posteriors");

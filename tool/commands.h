@@ -33,8 +33,9 @@ Command make_command(CLI::App& program, const char* name, const char* purpose,
 
 // Each adds one subcommand to the program.
 using AddCommand = Command(CLI::App& program);
-AddCommand corpus_command, label_command, train_command, info_command, evaluate_command,
-    reconstruct_command, synth_command, walk_command, render_command, plot_command;
+AddCommand corpus_command, roles_command, label_command, train_command, info_command,
+    evaluate_command, reconstruct_command, synth_command, walk_command, render_command,
+    plot_command;
 AddCommand stream_command, listen_command;  // only in builds with liblo (GAIT_HAS_OSC)
 
 }  // namespace gait::tool

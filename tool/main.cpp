@@ -85,7 +85,7 @@ int main(int argc, char** argv) try {
   using namespace gait::tool;
   std::vector<Command> commands;
   for (AddCommand* add :
-       {corpus_command, label_command, train_command, info_command, evaluate_command,
+       {corpus_command, roles_command, label_command, train_command, info_command, evaluate_command,
         reconstruct_command, synth_command, walk_command, render_command, plot_command,
 #ifdef GAIT_HAS_OSC
         stream_command, listen_command

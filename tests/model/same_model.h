@@ -62,7 +62,8 @@ void expect_same(const std::vector<Value>& a, const std::vector<Value>& b) {
 }
 
 inline void expect_same(const Joint& a, const Joint& b) {
-  const auto& [name, parent, offset, tips] = a;
+  // Where a turned-over joint sits told its role, which the file keeps.
+  const auto& [name, parent, offset, tips, sits_at] = a;
   expect_same(name, b.name);
   expect_same(parent, b.parent);
   expect_same(offset, b.offset);

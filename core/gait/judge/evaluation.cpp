@@ -68,7 +68,7 @@ class Evaluator {
     const Clip clip = resampled(walk.clip, model_->frame_rate);
     const Body& body = *model_->body;
     const auto matched = match_joints(body, clip.skeleton, clip.name);
-    const JointRoles clip_roles = find_roles(clip.skeleton, role_table_);
+    const JointRoles clip_roles = find_roles(clip, role_table_);
     WalkTrack track = follow_walk(clip, clip_roles);
     if (!walk.contacts.empty())
       track.contacts =

@@ -52,7 +52,7 @@ std::vector<CapturedCycle> cut_cycles(const std::vector<Walk>& walks, const Body
   for (std::size_t i = 0; i < walks.size(); ++i) {
     const Clip& clip = walks[i].clip;
     const std::vector<int> matched = match_joints(body, clip.skeleton, clip.name);
-    const JointRoles clip_roles = find_roles(clip.skeleton, roles);
+    const JointRoles clip_roles = find_roles(clip, roles);
     WalkTrack track = follow_walk(clip, clip_roles);
     if (!walks[i].contacts.empty()) track.contacts = walks[i].contacts;
     const std::vector<Cycle> straight = straight_cycles(track);

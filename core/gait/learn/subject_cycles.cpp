@@ -98,7 +98,7 @@ Body body_of_subjects(const std::vector<Walk>& walks, const RoleTable& roles) {
   });
   Body body;
   body.skeleton = first.clip.skeleton;
-  const JointRoles found = find_roles(body.skeleton, roles);
+  const JointRoles found = find_roles(first.clip, roles);
   if (!found.has_legs())
     throw Error(first.clip.name +
                 ": expected joints for hips and for thigh, shank and foot of both legs; name them "

@@ -40,7 +40,7 @@ std::vector<int> named_joints(const Skeleton& skeleton, const std::vector<std::s
 Body body_of(const Clip& clip, const WalkOptions& options) {
   Body body;
   body.skeleton = clip.skeleton;
-  const JointRoles roles = find_roles(clip.skeleton, options.roles);
+  const JointRoles roles = find_roles(clip, options.roles);
   if (!roles.has_legs())
     throw Error(clip.name +
                 ": expected joints for hips and for thigh, shank and foot of both legs; name them "
@@ -199,7 +199,7 @@ WalkSequences walk_sequences(const std::vector<Walk>& walks, const WalkOptions& 
     check_contacts(walk);
     Seen one;
     one.matched = match_joints(result.body, walk.clip.skeleton, walk.clip.name);
-    JointRoles roles = find_roles(walk.clip.skeleton, options.roles);
+    JointRoles roles = find_roles(walk.clip, options.roles);
     const WalkTrack track = follow_walk(walk.clip, roles);
     const double ratio = result.frame_rate / walk.clip.frame_rate;
     one.contacts = contacts_at(walk.contacts.empty() ? track.contacts : walk.contacts, ratio);

@@ -6,6 +6,7 @@
 
 #include "gait/error.h"
 #include "gait/files/bvh.h"
+#include "gait/motion/body_form.h"
 #include "gait/motion/body_frame.h"
 #include "gait/motion/contacts.h"
 #include "gait/motion/kinematics.h"
@@ -115,9 +116,10 @@ BodyMotion motion_on_body(const Clip& clip, const Model& model, std::vector<Labe
 
 BodyMotion read_motion(const std::filesystem::path& path, const Model& model) {
   const BvhFile file = read_bvh(path);
-  const Clip in_file = clip_from_bvh(file);
-  if (in_file.frames() == 0) throw Error(file.name + ": expected frames to play, found none");
   const Body& body = required_body(model);
+  const BodyForm form = body_form(clip_from_bvh(file), hips_and_legs_of(body));
+  const Clip& in_file = form.clip;
+  if (in_file.frames() == 0) throw Error(file.name + ": expected frames to play, found none");
   const JointRoles roles =
       matched_roles(body, match_joints(body, in_file.skeleton, file.name, needed_joints(body)),
                     in_file.skeleton.size());
@@ -143,6 +145,7 @@ BodyMotion read_motion(const std::filesystem::path& path, const Model& model) {
     throw Error((of_labels ? labels_name + ": " : "") + text);
   }
   motion.warnings = file.warnings;
+  motion.warnings.insert(motion.warnings.end(), form.warnings.begin(), form.warnings.end());
   motion.warnings.insert(motion.warnings.end(), frame.warnings.begin(), frame.warnings.end());
   return motion;
 }

@@ -128,6 +128,14 @@ JointRoles body_roles(const Body& body) {
   return roles;
 }
 
+RoleTable hips_and_legs_of(const Body& body) {
+  RoleTable table;
+  for (int joint = 0; joint < body.skeleton.size(); ++joint)
+    if (const Role role = body.roles[joint]; role == Role::hips || role >= Role::left_thigh)
+      table.emplace(body.skeleton.joints[joint].name, role);
+  return table;
+}
+
 JointRoles matched_roles(const Body& body, const std::vector<int>& matched, int clip_joints) {
   const auto in_clip = [&](int joint) { return joint < 0 ? -1 : matched[joint]; };
   const auto leg = [&](const Leg& of) {

@@ -50,6 +50,8 @@ BodyPoses body_poses(const Clip& clip, const Body& body, const std::vector<int>&
 
 // Roles of the body's joints as find_roles gives them for a skeleton.
 JointRoles body_roles(const Body& body);
+// The names of its hips and legs, by which a file of the same rig is brought into body form.
+RoleTable hips_and_legs_of(const Body& body);
 
 // The same as the clip counts its joints, `clip_joints` of them; `matched` as match_joints gives
 // it.

@@ -41,13 +41,15 @@ Eigen::Vector3d limb_of(const Skeleton& skeleton, const JointRoles& roles, int j
   const Role role = roles.of_joint[joint];
   const bool hand = role == Role::left_hand || role == Role::right_hand;
   Eigen::Vector3d mean = Eigen::Vector3d::Zero();
-  for (int child = joint + 1; child < skeleton.size(); ++child) {
-    if (skeleton.joints[child].parent != joint) continue;
-    const Role below = roles.of_joint[child];
-    const bool next = below == static_cast<Role>(static_cast<int>(role) + 1);
-    if (!hand && next) return skeleton.joints[child].offset;
-    mean += skeleton.joints[child].offset;
+  for (int below = joint + 1; !hand && below < skeleton.size(); ++below) {
+    if (roles.of_joint[below] != static_cast<Role>(static_cast<int>(role) + 1)) continue;
+    int above = skeleton.joints[below].parent;
+    while (above > joint && roles.of_joint[above] == Role::none)
+      above = skeleton.joints[above].parent;
+    if (above == joint) return skeleton.place_at_rest(below, joint);
   }
+  for (const Joint& child : skeleton.joints)
+    if (child.parent == joint) mean += child.offset;
   for (const Eigen::Vector3d& tip : skeleton.joints[joint].tips) mean += tip;
   return mean;
 }

@@ -90,9 +90,20 @@ int bone_parent(int bone) {
 int bone_named(std::string_view name) {
   for (int bone = 0; bone < humanoid_bones; ++bone)
     if (same_letters(name, bone_name(bone))) return bone;
-  Skeleton alone;
-  alone.joints.emplace_back().name = name;
-  return bone_of(find_roles(alone).of_joint[0]);
+  const std::string alone(name);
+  return bone_of(roles_of_names({&alone, 1})[0]);
+}
+
+std::vector<int> bones_named(std::span<const std::string> names) {
+  std::vector<int> found;
+  for (const Role role : roles_of_names(names)) found.push_back(bone_of(role));
+  for (std::size_t i = 0; i < names.size(); ++i)
+    for (int bone = 0; bone < humanoid_bones; ++bone) {
+      // What its role leaves out: chest, fingers, eyes. The spine's role has three bones.
+      const bool open = found[i] < 0 || found[i] == index_of(Bone::spine);
+      if (open && same_letters(names[i], bone_name(bone))) found[i] = bone;
+    }
+  return found;
 }
 
 std::vector<JointBone> bones_of_joints(const Skeleton& skeleton, std::span<const Role> roles) {

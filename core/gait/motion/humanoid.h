@@ -11,6 +11,7 @@
 #include <array>
 #include <bitset>
 #include <span>
+#include <string>
 #include <string_view>
 #include <vector>
 
@@ -60,6 +61,9 @@ int bone_parent(int bone);             // -1 for the hips
 // Finds a bone by Unity's name, in upper or lower case, or by a joint's name in another known rig;
 // -1: the name is not known.
 int bone_named(std::string_view name);
+// The same for all names that a sender uses: together they tell what one alone leaves open
+// ('LShoulder' is the collar bone beside 'LUArm').
+std::vector<int> bones_named(std::span<const std::string> names);
 
 // The bone that a joint of a skeleton follows. Where a spine or neck has several joints, each takes
 // its share of the turn.

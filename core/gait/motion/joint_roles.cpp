@@ -2,10 +2,12 @@
 
 #include <algorithm>
 #include <fstream>
+#include <set>
 #include <utility>
 
 #include "gait/error.h"
-#include "gait/motion/joint_names.h"
+#include "gait/motion/roles/joint_names.h"
+#include "gait/motion/roles/tree_roles.h"
 #include "gait/names.h"
 
 namespace gait {
@@ -67,30 +69,57 @@ void drop_unless_below(const Skeleton& skeleton, JointRoles& roles, Role role, R
       roles.of_joint[joint] = Role::none;
 }
 
-void choose_hips(const Skeleton& skeleton, JointRoles& roles, const std::vector<bool>& said) {
+bool is_trunk_or_arm(Role role) { return role >= Role::spine && role < Role::left_thigh; }
+
+bool holds_trunk(const Skeleton& skeleton, const JointRoles& roles, int hips) {
+  for (int joint = 0; joint < skeleton.size(); ++joint)
+    if (is_trunk_or_arm(roles.of_joint[joint]) && descends(skeleton, joint, hips)) return true;
+  return false;
+}
+
+// The hips hold both legs; of several that do, those that hold the trunk as well.
+void choose_hips(const Skeleton& skeleton, JointRoles& roles, const std::vector<bool>& said,
+                 const std::vector<NamedRole>& named) {
   const int left = roles.left.thigh, right = roles.right.thigh;
-  int chosen = -1;
-  bool chosen_holds_legs = false;
+  int chosen = -1, best = -1;
   for (int joint = 0; joint < skeleton.size(); ++joint) {
     if (roles.of_joint[joint] != Role::hips) continue;
     const bool holds_legs = left >= 0 && right >= 0 && descends(skeleton, left, joint) &&
                             descends(skeleton, right, joint);
-    if (said[joint]) {
-      chosen = joint;
-      chosen_holds_legs = true;
-      break;
-    }
-    if (chosen < 0 || (holds_legs && !chosen_holds_legs)) {
-      chosen = joint;
-      chosen_holds_legs = holds_legs;
-    }
+    const int fits = said[joint] ? 8
+                                 : 4 * holds_legs + 2 * holds_trunk(skeleton, roles, joint) +
+                                       !named[joint].vague;
+    if (fits > best) chosen = joint, best = fits;
   }
-  if (left >= 0 && right >= 0 && !chosen_holds_legs)
-    if (const int joint = common_ancestor(skeleton, left, right); joint >= 0) chosen = joint;
+  RoleSource source = chosen >= 0 ? roles.from[chosen] : RoleSource::tree;
+  if (left >= 0 && right >= 0 && best < 4)
+    if (const int joint = common_ancestor(skeleton, left, right); joint >= 0) {
+      chosen = joint;
+      source = RoleSource::tree;
+    }
   for (Role& role : roles.of_joint)
     if (role == Role::hips) role = Role::none;
-  if (chosen >= 0) roles.of_joint[chosen] = Role::hips;
+  if (chosen >= 0) {
+    roles.of_joint[chosen] = Role::hips;
+    roles.from[chosen] = source;
+  }
   roles.hips = chosen;
+}
+
+void set_legs(JointRoles& roles) {
+  roles.left = {roles.joint(Role::left_thigh), roles.joint(Role::left_shank),
+                roles.joint(Role::left_foot), roles.joint(Role::left_toes)};
+  roles.right = {roles.joint(Role::right_thigh), roles.joint(Role::right_shank),
+                 roles.joint(Role::right_foot), roles.joint(Role::right_toes)};
+}
+
+// Whether names and table leave a part of the body open.
+bool leave_open(const JointRoles& roles) {
+  for (const Role role : {Role::spine, Role::head, Role::left_arm, Role::left_forearm,
+                          Role::right_arm, Role::right_forearm, Role::left_thigh, Role::left_shank,
+                          Role::left_foot, Role::right_thigh, Role::right_shank, Role::right_foot})
+    if (roles.joint(role) < 0) return true;
+  return false;
 }
 
 // Sets the roles in the table; names then no longer decide about these roles.
@@ -100,6 +129,7 @@ std::vector<bool> apply_table(const Skeleton& skeleton, const RoleTable& table, 
   for (int joint = 0; joint < skeleton.size(); ++joint)
     if (const auto entry = table.find(skeleton.joints[joint].name); entry != table.end()) {
       roles.of_joint[joint] = entry->second;
+      roles.from[joint] = RoleSource::table;
       said[joint] = true;
       given.push_back(entry->second);
     }
@@ -141,8 +171,21 @@ double leg_length(const Skeleton& skeleton, const JointRoles& roles) {
 }
 
 JointRoles find_roles(const Skeleton& skeleton, const RoleTable& table) {
+  Clip at_rest;
+  at_rest.skeleton = skeleton;
+  return find_roles(at_rest, table);
+}
+
+JointRoles find_roles(const Clip& clip, const RoleTable& table) {
+  const Skeleton& skeleton = clip.skeleton;
+  const std::vector<NamedRole> named = roles_from_names(skeleton);
   JointRoles roles;
-  roles.of_joint = roles_from_names(skeleton);
+  std::vector<Side> sides;
+  for (const NamedRole& name : named) {
+    roles.of_joint.push_back(name.role);
+    roles.from.push_back(name.role == Role::none ? RoleSource::none : RoleSource::name);
+    sides.push_back(name.side);
+  }
   const std::vector<bool> said = apply_table(skeleton, table, roles);
 
   for (const auto& [thigh, shank, foot, toes] :
@@ -152,13 +195,18 @@ JointRoles find_roles(const Skeleton& skeleton, const RoleTable& table) {
     drop_unless_below(skeleton, roles, foot, shank, said);
     drop_unless_below(skeleton, roles, toes, foot, said);
   }
-  roles.left = {roles.joint(Role::left_thigh), roles.joint(Role::left_shank),
-                roles.joint(Role::left_foot), roles.joint(Role::left_toes)};
-  roles.right = {roles.joint(Role::right_thigh), roles.joint(Role::right_shank),
-                 roles.joint(Role::right_foot), roles.joint(Role::right_toes)};
-  choose_hips(skeleton, roles, said);
+  if (leave_open(roles)) add_roles_from_tree(clip, roles, said, sides);
+  set_legs(roles);
+  choose_hips(skeleton, roles, said, named);
+  for (std::size_t joint = 0; joint < roles.from.size(); ++joint)
+    if (roles.of_joint[joint] == Role::none && !said[joint]) roles.from[joint] = RoleSource::none;
 
   roles.in_leg.assign(skeleton.joints.size(), false);
+  // What was turned over onto the hips (motion/body_form.h) cannot be known without them.
+  for (int joint = 0; joint < skeleton.size(); ++joint)
+    if (roles.hips >= 0 && skeleton.joints[joint].parent == roles.hips &&
+        !skeleton.joints[joint].sits_at.empty())
+      roles.in_leg[joint] = true;
   for (const int thigh : {roles.left.thigh, roles.right.thigh}) {
     if (thigh < 0) continue;
     for (int joint = 0; joint < skeleton.size(); ++joint)
@@ -169,6 +217,33 @@ JointRoles find_roles(const Skeleton& skeleton, const RoleTable& table) {
       if (roles.of_joint[joint] == Role::none) roles.in_leg[joint] = true;
   }
   return roles;
+}
+
+std::vector<Role> roles_of_names(std::span<const std::string> names) {
+  Skeleton alone;
+  for (const std::string& name : names) alone.joints.emplace_back().name = name;
+  return find_roles(alone).of_joint;
+}
+
+std::string missing_roles(const JointRoles& roles) {
+  std::string missing;
+  for (const Role role : {Role::hips, Role::left_thigh, Role::left_shank, Role::left_foot,
+                          Role::right_thigh, Role::right_shank, Role::right_foot})
+    if (roles.joint(role) < 0) append_name(missing, std::string(role_name(role)));
+  return missing;
+}
+
+std::string role_table_text(const Skeleton& skeleton, const JointRoles& roles) {
+  std::string text = "# joint = role; roles:";
+  for (const auto& [role, name] : role_names)
+    text += (role == Role::none ? " " : ", ") + std::string(name);
+  text += "\n";
+  std::set<std::string> written;
+  for (int joint = 0; joint < skeleton.size(); ++joint)
+    if (const std::string& name = skeleton.joints[joint].name;
+        name.find('#') == std::string::npos && written.insert(name).second)
+      text += name + " = " + std::string(role_name(roles.of_joint[joint])) + "\n";
+  return text;
 }
 
 std::vector<std::string> names_not_in(const Skeleton& skeleton, const RoleTable& table) {

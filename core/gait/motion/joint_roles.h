@@ -1,15 +1,17 @@
-// Joint roles: which joint is the hips, the left shank, the head. They are found from usual names;
-// a table of the user's overrides them.
+// Joint roles: which joint is the hips, the left shank, the head. They are found from the names of
+// a rig together, then from its tree; a table of the user's overrides both.
 #pragma once
 
 #include <array>
 #include <filesystem>
 #include <map>
 #include <optional>
+#include <span>
 #include <string>
 #include <string_view>
 #include <vector>
 
+#include "gait/motion/clip.h"
 #include "gait/motion/skeleton.h"
 
 namespace gait {
@@ -46,11 +48,16 @@ struct Leg {
   int thigh = -1, shank = -1, foot = -1, toes = -1;
 };
 
+// What a role was understood from.
+enum class RoleSource { none, name, tree, table };
+
 struct JointRoles {
   // One per joint. Several may share a role: spine, neck, hand, a thigh in two pieces.
   std::vector<Role> of_joint;
+  std::vector<RoleSource> from{};  // one per joint; may be empty
   // One per joint: true from the thighs down to the last toe, and for unnamed joints between hips
-  // and thigh. All of them move with the leg, so none may count as input when legs are output.
+  // and thigh. All of them move with the leg, so none may count as input when legs are output. So
+  // does a joint that was turned over onto the hips.
   std::vector<bool> in_leg;
   int hips = -1;
   Leg left, right;
@@ -72,10 +79,24 @@ double leg_length(const Skeleton& skeleton, const JointRoles& roles);
 // A table that overrides what names suggest: joint name -> role.
 using RoleTable = std::map<std::string, Role>;
 
-// Finds roles from names (Bandai-Namco, CMU, Mixamo, Xsens, Perception Neuron, VRM/Unity and
-// others). Without a joint named as hips, the hips are the joint from which both thighs descend. A
-// role that the table gives to a joint is not given to others by their names.
+// Finds roles from all names of the rig together: what all share, sides, and names that mean
+// different bones in different rigs ('LeftShoulder' is the collar bone beside 'LeftArm'). What
+// names leave open is found from the tree: two long chains that lead away from the rest of the body
+// are legs, two from the upper trunk are arms; their sides follow from where feet and knees point
+// in the clip's frames, or at rest when it has none. Without a joint named as hips, the hips are
+// the joint from which both thighs descend. A role that the table gives to a joint is not given to
+// others.
+JointRoles find_roles(const Clip& clip, const RoleTable& table = {});
 JointRoles find_roles(const Skeleton& skeleton, const RoleTable& table = {});
+
+// Roles of names alone, as a sender tells them: no tree is known.
+std::vector<Role> roles_of_names(std::span<const std::string> names);
+
+// The roles that must be known to follow a walk and that no joint has, in words: "hips, left
+// shank". Empty when there are none.
+std::string missing_roles(const JointRoles& roles);
+// A table with one line per joint, in the skeleton's order: what read_role_table reads.
+std::string role_table_text(const Skeleton& skeleton, const JointRoles& roles);
 
 // Names of the table that no joint of the skeleton has: misspelt, or meant for another rig.
 std::vector<std::string> names_not_in(const Skeleton& skeleton, const RoleTable& table);

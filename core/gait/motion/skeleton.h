@@ -11,8 +11,11 @@ namespace gait {
 struct Joint {
   std::string name;
   int parent = -1;  // index of the parent, always smaller than the joint's own; -1: a root
-  Eigen::Vector3d offset{0, 0, 0};    // from the parent, in the parent's frame
-  std::vector<Eigen::Vector3d> tips;  // end sites: where bones without a joint at their end stop
+  Eigen::Vector3d offset{0, 0, 0};      // from the parent, in the parent's frame
+  std::vector<Eigen::Vector3d> tips{};  // end sites: where bones without a joint at their end stop
+  // In a rig re-rooted at its hips: the file's joint at whose place this one sits, where that is
+  // another (motion/body_form.h). It tells the role.
+  std::string sits_at{};
 };
 
 struct Skeleton {

@@ -17,8 +17,11 @@ namespace gait {
 
 // Where the hips of the written file come from.
 enum class FileRoot {
-  feet,  // hips by the feet, from the origin along +Z; joints above them at rest, at the origin
-  file   // place and heading of the hips as in the file, joints above them untouched
+  // Hips by the feet, from the origin along +Z; joints above them at rest, at the origin. Where the
+  // trunk hangs above the hips (a root at the head) it stays as measured: the hips follow its
+  // heading from where they were, and the root's place goes with them.
+  feet,
+  file  // place and heading of the hips as in the file, joints above them untouched
 };
 
 struct ReconstructedFile {
