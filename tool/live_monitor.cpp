@@ -60,15 +60,15 @@ std::vector<std::string> LiveMonitor::doubts(double now, const osc::FrameSource&
   const osc::FormSpace space = osc::facts_of(frame.form).space;
   const bool humanoid = space != osc::FormSpace::own;
   const auto bones = source.bones();
-  const auto has = [&](Bone bone) { return bones[index_of(bone)]; };
+  const auto has = [&](gait::Bone bone) { return bones[index_of(bone)]; };
   if (humanoid && space != osc::FormSpace::camera) {
-    if (!has(Bone::hips))
+    if (!has(gait::Bone::hips))
       doubts.emplace_back("no Hips: no body can be recorded, and a model with hips misses them");
     if (seen.last > 0 && seen.last - seen.placed > 1)
       doubts.emplace_back("no place of the hips: the body will not travel");
   }
-  if (humanoid && !has(Bone::left_upper_leg) && !has(Bone::right_upper_leg))
-    doubts.emplace_back(has(Bone::left_upper_arm) || has(Bone::right_upper_arm)
+  if (humanoid && !has(gait::Bone::left_upper_leg) && !has(gait::Bone::right_upper_leg))
+    doubts.emplace_back(has(gait::Bone::left_upper_arm) || has(gait::Bone::right_upper_arm)
                             ? "no legs"
                             : "neither arms nor legs: a face tracker?");
   if (space == osc::FormSpace::judged && frame.placed[0] && frame.places[0][2] > 0.6F &&

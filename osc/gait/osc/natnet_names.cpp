@@ -4,7 +4,6 @@
 #include <array>
 
 #include "gait/motion/humanoid.h"
-#include "gait/motion/joint_names.h"
 
 namespace gait::osc {
 
@@ -67,17 +66,17 @@ std::string_view without_asset(std::string_view name) {
 }  // namespace
 
 std::vector<int> bones_of_names(const std::vector<std::string>& names) {
-  Skeleton rig;
-  for (const std::string& name : names)
-    rig.joints.emplace_back().name = std::string(without_asset(name));
-  const std::vector<Role> roles = roles_from_names(rig);
-  const std::vector<JointBone> followed = bones_of_joints(rig, roles);
+  std::vector<std::string> own;
+  for (const std::string& name : names) own.emplace_back(without_asset(name));
+  const std::vector<Role> roles = roles_of_names(own);
+  const std::vector<int> found = bones_named(own);
   std::vector<int> bones;
   int spines = 0;
-  for (std::size_t joint = 0; joint < names.size(); ++joint) {
-    int bone = followed[joint].bone;
-    if (roles[joint] == Role::spine) bone = spines < 3 ? index_of(Bone::spine) + spines++ : -1;
-    if (bone < 0) bone = finger_named(rig.joints[joint].name);
+  for (std::size_t i = 0; i < own.size(); ++i) {
+    int bone = found[i];
+    if (roles[i] == Role::spine)  // in their order, whatever they are called
+      bone = spines < 3 ? index_of(Bone::spine) + spines++ : -1;
+    if (bone < 0) bone = finger_named(own[i]);
     if (std::ranges::find(bones, bone) != bones.end()) bone = -1;
     bones.push_back(bone);
   }
