@@ -57,6 +57,12 @@ class Viterbi final : public ModelPlayer<Recognising> {
   }
 
   void in(const Arguments& arguments) { whole_frame(arguments, false); }
+  // A phone's stream from [gait.osc], with its name first.
+  void plain(const Arguments& arguments) {
+    if (arguments.size() < 1) arguments.fail("expected a name and numbers");
+    const auto atoms = arguments.atoms().subspan(1);
+    in(Arguments(box().name(), "plain", static_cast<int>(atoms.size()), atoms.data()));
+  }
   void pose(const Arguments& arguments) { whole_frame(arguments, true); }
   void list(const Arguments& arguments) {
     whole_frame(arguments,
@@ -328,6 +334,7 @@ void setup_viterbi() {
       .messages<&Viterbi::in, &Viterbi::pose, &Viterbi::single<&set_joint>,
                 &Viterbi::single<&set_quaternion>, &Viterbi::single<&set_euler>>(
           {"in", "pose", "joint", "quat", "euler"})
+      .messages<&Viterbi::plain>({"plain"})
       .bang<&Viterbi::bang>()
       .list<&Viterbi::list>()
       .messages<&Viterbi::decoder, &Viterbi::mask, &Viterbi::set<&ViterbiSetting::rate>,
@@ -337,6 +344,7 @@ void setup_viterbi() {
                 &Viterbi::resend>({"decoder", "mask", "rate", "memory", "margin", "hold", "timeout",
                                    "ahead", "onlost", "resend"})
       .common()
+      .refuse_others()
       .dsp();
 }
 
