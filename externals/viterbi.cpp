@@ -331,10 +331,9 @@ class Viterbi final : public ModelPlayer<Recognising> {
 
 void setup_viterbi() {
   Class<Viterbi>("gait.viterbi~", multichannel_class)
-      .messages<&Viterbi::in, &Viterbi::pose, &Viterbi::single<&set_joint>,
+      .messages<&Viterbi::in, &Viterbi::pose, &Viterbi::plain, &Viterbi::single<&set_joint>,
                 &Viterbi::single<&set_quaternion>, &Viterbi::single<&set_euler>>(
-          {"in", "pose", "joint", "quat", "euler"})
-      .messages<&Viterbi::plain>({"plain"})
+          {"in", "pose", "plain", "joint", "quat", "euler"})
       .bang<&Viterbi::bang>()
       .list<&Viterbi::list>()
       .messages<&Viterbi::decoder, &Viterbi::mask, &Viterbi::set<&ViterbiSetting::rate>,
