@@ -190,7 +190,8 @@ void setup_map() {
   Class<Map>("gait.map")
       .messages<&Map::obs, &Map::strength, &Map::bias, &Map::spread, &Map::through, &Map::through,
                 &Map::through>({"obs", "strength", "bias", "spread", "stream", "walking", "place"})
-      .common();
+      .common()
+      .refuse_others();
 }
 
 }  // namespace gait::pd

@@ -6,9 +6,12 @@
 #include <vector>
 
 #include "gait/error.h"
+#include "gait/osc/forms.h"
+#include "gait/osc/frame_gatherer.h"
 #include "gait/osc/receiver.h"
 #include "objects.h"
 #include "osc_receivers.h"
+#include "osc_senders.h"
 #include "osc_voice.h"
 #include "pd/models.h"
 #include "pd/ticker.h"
@@ -27,16 +30,19 @@ class Osc final : public ModelUser, osc::FrameSink {
         in_(box),
         pose_(box),
         info_(box),
-        receivers_(box) {
+        receivers_(box),
+        senders_(box) {
     for (int at = arguments.is_word(0) ? 1 : 0; at < arguments.size(); ++at) {
       const std::string flag = arguments.symbol(at);
       if (flag == "-poly")
         count_ = arguments.integer(++at, 1, most_voices);
       else if (flag == "-blocking")
-        receivers_.set_blocking();
+        receivers_.set_blocking(), senders_.set_blocking();
       else
         arguments.fail_at(at, "-poly n or -blocking");
     }
+    plain_.reserve(osc::most_values);
+    in_.reserve(osc::most_values + 8);
     join(info_);
   }
 
@@ -50,6 +56,12 @@ class Osc final : public ModelUser, osc::FrameSink {
       close();
     else if (selector == "to")
       receivers_.to(arguments, -1);
+    else if (selector == "outputs")
+      outputs(arguments);
+    else if (selector == "from")
+      senders_.from(arguments, -1);
+    else if (selector == "senders")
+      senders_.list(osc::Receiver::now(), info_);
     else if (selector == "calibrate")
       calibrate(arguments, -1);
     else if (selector == "yaw")
@@ -76,8 +88,10 @@ class Osc final : public ModelUser, osc::FrameSink {
       calibrate(message, voice);
     else if (message.selector() == "to")
       receivers_.to(message, voice);
+    else if (message.selector() == "from")
+      senders_.from(message, voice);
     else
-      message.fail("expected pose, root, calibrate or to after a performer's number");
+      message.fail("expected pose, root, calibrate, from or to after a performer's number");
   }
 
   void report_perf(const Arguments& arguments) {
@@ -88,7 +102,7 @@ class Osc final : public ModelUser, osc::FrameSink {
   void reset(const Arguments&) {
     settle_dropped();
     for (const auto& voice : voices_) voice->reset();
-    if (gatherer_) gatherer_.emplace(std::max(1, count_));
+    if (gatherer_) gather();
     counted_ = count_dropped();
   }
 
@@ -116,6 +130,7 @@ class Osc final : public ModelUser, osc::FrameSink {
       info_.send("listen");
     }
     receivers_.dump(info_);
+    senders_.dump(info_);
     info_.add(settings_.yaw).send("yaw");
     info_.add(settings_.jitter).send("jitter");
     info_.add(settings_.hold).send("hold");
@@ -149,7 +164,7 @@ class Osc final : public ModelUser, osc::FrameSink {
       else if (form)
         wanted.form = *form;
       else
-        arguments.fail_at(i, "any, or a form: vmc, natnet, neuron, kinect, gait");
+        arguments.fail_at(i, "any, or a form: " + osc::form_names_text());
     }
     if (receiver_ && wanted.port == listening_.port && wanted.any == listening_.any &&
         wanted.form == listening_.form)
@@ -164,7 +179,7 @@ class Osc final : public ModelUser, osc::FrameSink {
     }
     settle_dropped();
     receiver_ = std::move(opened);
-    gatherer_.emplace(std::max(1, count_));
+    gather();
     counted_ = count_dropped();
     listening_ = wanted;
     poll_.after(0);
@@ -175,9 +190,15 @@ class Osc final : public ModelUser, osc::FrameSink {
     settle_dropped();
     poll_.cancel();
     receiver_.reset();
+    senders_.use(nullptr);
     gatherer_.reset();
     counted_ = count_dropped();
     end_streams();
+  }
+
+  void gather() {
+    gatherer_.emplace(std::max(1, count_));
+    senders_.use(&*gatherer_);
   }
 
   void end_streams() {
@@ -218,6 +239,16 @@ class Osc final : public ModelUser, osc::FrameSink {
     });
   }
 
+  // What a patch has learnt, to those who take Wekinator's outputs.
+  void outputs(const Arguments& arguments) {
+    if (!receivers_.send_outputs(arguments)) {
+      if (receivers_.take_failure())
+        slow_error().say([] { return "to: the network did not take the outputs"; });
+      else
+        slow_error().say([] { return "outputs: expected 1 to 256 numbers"; });
+    }
+  }
+
   void frame(int performer, const osc::CapturedFrame& captured) noexcept override {
     if (performer < static_cast<int>(voices_.size())) voices_[performer]->take(captured);
   }
@@ -226,7 +257,9 @@ class Osc final : public ModelUser, osc::FrameSink {
     poll_.after(poll_interval);
     osc::MocapEvent event;
     for (int i = 0; i < most_events_a_poll && receiver_->pop(event); ++i)
-      if (model())
+      if (event.kind == osc::MocapKind::plain)
+        take_plain(event);
+      else if (model())
         gatherer_->take(event, *this);
       else if (event.kind == osc::MocapKind::edge)
         ready_for_frame();  // drops and counts it
@@ -243,8 +276,17 @@ class Osc final : public ModelUser, osc::FrameSink {
     if (now - reported_ >= 1) report(now);
   }
 
+  // `plain NAME x ...`, once all numbers of the stream are there.
+  void take_plain(const osc::MocapEvent& event) {
+    if (event.first == 0) plain_.clear();
+    plain_.insert(plain_.end(), event.numbers.begin(), event.numbers.begin() + event.count);
+    if (static_cast<int>(plain_.size()) != event.total) return;
+    in_.add(event.name.data()).add(std::span<const float>(plain_)).send("plain");
+  }
+
   void report(double now) {
     reported_ = now;
+    senders_.tell_left_out(now);
     const std::uint64_t before = told_dropped_;
     settle_dropped();
     if (dropped_ == before) return;
@@ -252,8 +294,8 @@ class Osc final : public ModelUser, osc::FrameSink {
     told_dropped_ = dropped_;
     slow_error().say([&] {
       return std::to_string(more) +
-             " events were dropped: faulty, of performers beyond the number asked for, of another "
-             "model, or too many at once";
+             " events were dropped: faulty, of another model, of too many senders, or too many at "
+             "once";
     });
     info_.add(static_cast<double>(dropped_)).send("dropped");
   }
@@ -279,12 +321,14 @@ class Osc final : public ModelUser, osc::FrameSink {
 
   Outlet in_, pose_, info_;
   OscReceivers receivers_;
+  OscSenders senders_;
   int count_ = 0;  // performers of -poly, 0: one without a number
   OscSettings settings_;
   osc::ReceiverSettings listening_;
   std::unique_ptr<osc::Receiver> receiver_;
   std::optional<osc::FrameGatherer> gatherer_;
   std::vector<std::shared_ptr<OscVoice>> voices_;
+  std::vector<float> plain_;  // of the stream that comes now
   Latency latency_;
   double reported_ = 0;
   std::uint64_t dropped_ = 0, told_dropped_ = 0, counted_ = 0;  // counted_: of count_dropped()

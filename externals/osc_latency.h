@@ -14,8 +14,9 @@ class Latency {
  public:
   // `seconds` from arrival to leaving. Neither allocates nor throws.
   void add(double seconds) noexcept {
-    const double at = std::clamp(1e3 * seconds / bin, 0.0, bins - 1.0);
-    ++counts_[static_cast<std::size_t>(at)];
+    const double ms = std::max(0.0, 1e3 * seconds);
+    const double at = ms < fine ? ms / bin : fine_bins + (ms - fine);
+    ++counts_[static_cast<std::size_t>(std::min(at, bins - 1.0))];
     ++frames_;
     most_ = std::max(most_, 1e3 * seconds);
   }
@@ -27,15 +28,21 @@ class Latency {
   }
 
  private:
-  static constexpr double bin = 0.02;  // ms
-  static constexpr int bins = 5000;    // to 100 ms; the last one counts all later frames
+  // Bins of 0.02 ms to 20 ms, then of 1 ms to 3 s, more than any jitter buffer; the last one counts
+  // all later frames.
+  static constexpr double bin = 0.02, fine = 20;
+  static constexpr int fine_bins = 1000, bins = fine_bins + 2980;
 
   // The upper edge of the bin that so many of all frames reach; 0 without frames.
   double percentile(double share) const noexcept {
     double seen = 0;
     for (std::size_t i = 0; i < counts_.size() && frames_ > 0; ++i)
-      if ((seen += counts_[i]) >= share * frames_)
-        return std::min(most_, bin * static_cast<double>(i + 1));
+      if ((seen += counts_[i]) >= share * frames_) {
+        const double edge = static_cast<double>(i + 1);
+        return i + 1 == counts_.size()
+                   ? most_
+                   : std::min(most_, i < fine_bins ? bin * edge : fine + edge - fine_bins);
+      }
     return 0;
   }
 

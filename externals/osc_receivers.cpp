@@ -4,6 +4,7 @@
 #include <span>
 
 #include "gait/error.h"
+#include "gait/osc/forms.h"
 
 namespace gait::pd {
 
@@ -24,8 +25,8 @@ void OscReceivers::to(const Arguments& arguments, int performer) {
   wanted.port = arguments.size() > 1 ? arguments.integer(1, 1, 65535) : 39539;
   if (arguments.size() > 2) {
     const auto form = osc::form_named(arguments.symbol(2));
-    if (!form || *form == osc::MocapForm::kinect)
-      arguments.fail_at(2, "vmc, natnet, neuron or gait");
+    if (!form || (!osc::is_sent(*form) && *form != osc::MocapForm::wekinator))
+      arguments.fail_at(2, osc::form_names_text(true) + "; or wekinator for 'outputs'");
     wanted.form = *form;
   }
   if (std::ranges::any_of(receivers_, [&](const Receiver& known) { return known.is(wanted); }))
@@ -63,6 +64,7 @@ std::vector<osc::BodySender> OscReceivers::senders_for(
   std::vector<osc::BodySender> senders;
   if (!model || !model->body) return senders;
   for (const Receiver& receiver : receivers_) {
+    if (!osc::is_sent(receiver.form)) continue;
     const auto same = [&](const osc::BodySender& s) { return s.form() == receiver.form; };
     if (std::ranges::none_of(senders, same)) senders.emplace_back(model, receiver.form);
   }
@@ -96,6 +98,25 @@ bool OscReceivers::take(const Arguments& arguments, int performer) noexcept {
       failed_ = true;
   }
   return true;
+}
+
+bool OscReceivers::send_outputs(const Arguments& arguments) {
+  constexpr int most_outputs = 256;
+  const int count = arguments.size();
+  if (count < 1 || count > most_outputs) return false;
+  numbers_.resize(static_cast<std::size_t>(count));
+  if (!arguments.read(numbers_)) return false;
+  if (!outputs_ || outputs_->numbers() != count) {
+    outputs_.emplace();
+    outputs_->add("/wek/outputs", std::string(static_cast<std::size_t>(count), 'f'));
+  }
+  outputs_->set(numbers_);
+  // The message alone, without its bundle.
+  const auto message = outputs_->bytes().subspan(osc::PacketTemplate::head);
+  for (const Receiver& receiver : receivers_)
+    if (receiver.form == osc::MocapForm::wekinator && !receiver.destination->send(message))
+      failed_ = true;
+  return !failed_;
 }
 
 void OscReceivers::dump(Outlet& info) const {

@@ -3,6 +3,7 @@
 
 #include <array>
 #include <memory>
+#include <optional>
 #include <string>
 #include <string_view>
 #include <utility>
@@ -29,6 +30,9 @@ class OscReceivers {
   // Takes `root` or `pose` of a performer; a pose is sent. Neither allocates nor throws. False: the
   // count of numbers is not expected().
   bool take(const Arguments& arguments, int performer) noexcept;
+  // Sends /wek/outputs with these numbers to all receivers of the form `wekinator`. False: they are
+  // no numbers, or the system has refused a packet.
+  bool send_outputs(const Arguments& arguments);
   int expected(std::string_view selector) const noexcept;
   // Whether the system has refused a packet since this was asked last.
   bool take_failure() noexcept { return std::exchange(failed_, false); }
@@ -57,7 +61,9 @@ class OscReceivers {
   std::vector<Receiver> receivers_;
   std::vector<osc::BodySender> senders_;  // one for each form that is sent
   std::array<std::shared_ptr<const osc::Destination>, most> to_;
-  std::vector<float> pose_, roots_;  // of one performer, of all
+  std::vector<float> pose_, roots_;             // of one performer, of all
+  std::optional<osc::PacketTemplate> outputs_;  // made anew for another count
+  std::vector<float> numbers_;
   bool failed_ = false;
   int lookups_ = 0;  // `to` alone raises it: look-ups begun before that add nothing
   Background background_;

@@ -1,9 +1,9 @@
 #include "osc_voice.h"
 
 #include <algorithm>
-#include <cstdio>
 #include <numbers>
 
+#include "gait/osc/forms.h"
 #include "gait/osc/receiver.h"
 
 namespace gait::pd {
@@ -67,17 +67,17 @@ void OscVoice::end(Outlet& info) {
 }
 
 void OscVoice::take(const osc::CapturedFrame& frame) noexcept {
-  if (frame.sender != sender_ || frame.stream != stream_ || frame.form != form_) {
-    // The same program may open another port for every take: the calibration holds on.
-    const bool same_performer =
-        frame.form == form_ && frame.stream == stream_ && frame.sender >> 16 == sender_ >> 16;
+  // The same program may open another port for every take: the calibration holds on.
+  const bool same_performer =
+      frame.form == form_ && frame.stream == stream_ && frame.sender.host == sender_.host;
+  if (!same_performer || frame.begun) {
     if (same_performer)
       body_.forget_pose();
     else
       body_.reset();
-    sender_ = frame.sender, stream_ = frame.stream, form_ = frame.form;
     changed_sender_ = true;
   }
+  sender_ = frame.sender, stream_ = frame.stream, form_ = frame.form;
   if (!body_.take(frame)) {
     ++unfit_;
     return;
@@ -91,7 +91,7 @@ void OscVoice::take(const osc::CapturedFrame& frame) noexcept {
     *at++ = body_.there(static_cast<int>(i)) ? 1.0f : 0.0f;
   at = std::copy(live.inputs.begin(), live.inputs.end(), at);
   std::copy(live.pose.begin(), live.pose.end(), at);
-  waiting_.push(frame.time, packed_);
+  waiting_.push(frame.time, packed_, frame.sent);
   last_ = frame.time;
   flowing_ = true;
   ++counted_;
@@ -106,11 +106,7 @@ void OscVoice::send_masks(Outlet& in, std::span<const float> there) {
 }
 
 void OscVoice::send_sender(Outlet& info) {
-  const auto address = static_cast<unsigned>(sender_ >> 16);
-  char name[64];
-  std::snprintf(name, sizeof name, "%u.%u.%u.%u:%u", address >> 24, address >> 16 & 255,
-                address >> 8 & 255, address & 255, static_cast<unsigned>(sender_ & 65535));
-  info.add(std::max(0, number_)).add(name).send("performer");
+  info.add(std::max(0, number_)).add(sender_.name()).send("performer");
   to(info, "form").add(std::string(osc::form_name(form_))).send();
 }
 

@@ -66,7 +66,7 @@ class OscVoice {
   std::vector<bool> there_;  // of each input, as `mask` said last; at first all are there
   std::size_t inputs_, pose_;
   bool changed_sender_ = false, flowing_ = false, said_flowing_ = false;
-  std::uint64_t sender_ = 0;
+  UdpAddress sender_;
   std::uint32_t stream_ = 0;
   osc::MocapForm form_ = osc::MocapForm::none;
   double last_ = 0, rate_from_ = 0;

@@ -41,7 +41,7 @@ class Skeleton final : public ModelPlayer<BodyStage> {
         take_frame(arguments, pose_, [this] { return playing()->store_pose(pose_); });
     } else if (selector == "root") {
       store_root(arguments);
-    } else {
+    } else if (selector != "mask" && selector != "plain") {  // [gait.osc] sends them beside `in`
       arguments.fail("no such message at the right inlet");
     }
   }

@@ -16,8 +16,9 @@ namespace gait::pd {
 
 namespace {
 
-constexpr double look_every = 50;  // ms: how often the progress is sent
-constexpr int most_values = 1000;  // of -in and -out
+constexpr double look_every = 50;   // ms: how often the progress is sent
+constexpr double save_every = 400;  // ms: what a sudden end of Pd may cost, and a little more
+constexpr int most_values = 1000;   // of -in and -out
 
 class Train final : public ModelOwner {
  public:
@@ -41,9 +42,12 @@ class Train final : public ModelOwner {
     out_.assign(static_cast<std::size_t>(outputs_), 0);
     given_.assign(static_cast<std::size_t>(inputs_), 0);
     recorder_ = std::make_unique<TakeRecorder>(journal_path(model_name()), background().blocking());
-    if (!recorder_->left_behind().empty())
-      logpost(&box, 2, "gait.train: takes of an earlier session are in %s; 'add' brings them back",
+    if (!recorder_->left_behind().empty()) {
+      logpost(&box, 2,
+              "gait.train: takes of an earlier session are in %s; 'restore' brings them back",
               recorder_->left_behind().c_str());
+      offer_.after(0);  // when the patch is loaded
+    }
     join(info_);
   }
   ~Train() override {
@@ -59,11 +63,21 @@ class Train final : public ModelOwner {
           "anything)");
     take_frame(arguments, given_);
   }
+  // A phone's stream from [gait.osc], with its name first.
+  void plain(const Arguments& arguments) {
+    if (arguments.size() < 1) arguments.fail("expected a name and numbers");
+    const auto atoms = arguments.atoms().subspan(1);
+    in(Arguments(box().name(), "plain", static_cast<int>(atoms.size()), atoms.data()));
+  }
   void pose(const Arguments& arguments) {
     if (!learns_walks()) arguments.fail("expected 'in': this box was made with -in");
     if (!recorder_->recording()) return;
     take_frame(arguments, pose_);
   }
+
+  // What comes beside frames from [gait.osc] and [gait.bvh]: where the body is, which inputs are
+  // missing. A take has neither.
+  void pass_over(const Arguments&) {}
 
   void record(const Arguments& arguments) {
     const std::string label = arguments.only().text(0);
@@ -76,6 +90,7 @@ class Train final : public ModelOwner {
       pose_.assign(3 * body()->references.size(), 0);
     }
     recorder_->start(label, inputs_ > 0 ? inputs_ : static_cast<int>(pose_.size()), outputs_);
+    saver_.after(save_every);
   }
   void stop(const Arguments& arguments) {
     if (!recorder_->recording()) arguments.fail("nothing is being recorded");
@@ -97,6 +112,16 @@ class Train final : public ModelOwner {
           for (RecordedTake& take : takes) add_take(std::move(take));
         },
         [this](const std::string& reason) { failed("add: " + reason); });
+  }
+
+  // The takes of an earlier session, and the one that its end cut short.
+  void restore(const Arguments& arguments) {
+    arguments.expect_count(0);
+    if (recorder_->left_behind().empty()) arguments.fail("no earlier session left takes");
+    if (learns_walks() && !body()) arguments.fail("waiting for gait-demo");
+    read_left_behind([this](std::vector<RecordedTake> takes) {
+      for (RecordedTake& take : takes) add_take(std::move(take));
+    });
   }
 
   void list(const Arguments&) {
@@ -228,6 +253,24 @@ class Train final : public ModelOwner {
     const RecordedTake& take = *recorder_->takes()[static_cast<std::size_t>(index)];
     info_.add(index).add_text(take.label).add(take.duration()).send("take");
   }
+  void read_left_behind(std::function<void(std::vector<RecordedTake>)> done) {
+    background().run([path = path_from_utf8(recorder_->left_behind())] { return read_takes(path); },
+                     std::move(done),
+                     [this](const std::string& reason) { failed("restore: " + reason); });
+  }
+  // `unfinished LABEL S` for a take that was being recorded when Pd ended.
+  void offer() {
+    read_left_behind([this](const std::vector<RecordedTake>& takes) {
+      for (const RecordedTake& take : takes)
+        if (!take.finished) info_.add_text(take.label).add(take.duration()).send("unfinished");
+    });
+  }
+  // Twice a second, while a take is recorded.
+  void save() {
+    if (!recorder_->recording()) return;
+    recorder_->save();
+    saver_.after(save_every);
+  }
   void look() {
     if (!learning_) return;
     info_.add(learning_->share.load()).send("progress");
@@ -260,6 +303,7 @@ class Train final : public ModelOwner {
   SharedModel trained_;
   TakesJudged judged_;
   Ticker ticker_{[this] { look(); }};
+  Ticker saver_{[this] { save(); }}, offer_{[this] { offer(); }};
 };
 
 }  // namespace
@@ -268,6 +312,8 @@ void setup_train() {
   Class<Train>("gait.train")
       .message<&Train::in>("in")
       .list<&Train::in>()
+      .messages<&Train::pass_over, &Train::pass_over, &Train::restore>({"root", "mask", "restore"})
+      .messages<&Train::plain>({"plain"})
       .messages<&Train::pose, &Train::record, &Train::stop, &Train::add, &Train::remove,
                 &Train::undo, &Train::train, &Train::cancel, &Train::write>(
           {"pose", "record", "stop", "add", "remove", "undo", "train", "cancel", "write"})

@@ -2,6 +2,7 @@
 
 #include <m_pd.h>
 
+#include <algorithm>
 #include <sstream>
 #include <system_error>
 #include <utility>
@@ -21,9 +22,24 @@ fs::path journal_path(const std::string& name) {
   return state_folder() / "gait" / path_from_utf8(file + ".takes");
 }
 
+namespace {
+
+RecordedTake piece_of(const RecordedTake& take, int from, int to) {
+  const auto width = static_cast<std::ptrdiff_t>(take.inputs + take.outputs);
+  RecordedTake piece{take.label, take.inputs, take.outputs, {}, {}};
+  piece.seconds.assign(take.seconds.begin() + from, take.seconds.begin() + to);
+  piece.values.assign(take.values.begin() + width * from, take.values.begin() + width * to);
+  return piece;
+}
+
+}  // namespace
+
 struct TakeRecorder::Journal {
   std::unique_ptr<LockedFile> file;
   std::string missing{};  // why there is no file
+  // The worker's: a piece of the take could not be written. Without it, those after it would be no
+  // take, so they are left out.
+  bool lost = false;
 
   ~Journal() {
     if (file && file->size() == 0) file->remove();
@@ -71,6 +87,7 @@ void TakeRecorder::start(const std::string& label, int inputs, int outputs) {
   recording_->label = label;
   recording_->inputs = inputs;
   recording_->outputs = outputs;
+  saved_ = -1;
   // Once, for the longest take: nothing is made at frame rate. The system gives it as it is used.
   recording_->seconds.reserve(most_frames);
   recording_->values.reserve(static_cast<std::size_t>(most_frames) *
@@ -97,14 +114,30 @@ std::shared_ptr<const RecordedTake> TakeRecorder::stop() {
     recording_.reset();
     return nullptr;
   }
+  save_until(recording_->frames());
+  write(false, [](std::ostream& file) { write_take_end(file); });
   recording_->values.shrink_to_fit();
   recording_->seconds.shrink_to_fit();
   const std::shared_ptr<const RecordedTake> take = std::move(recording_);
   Takes next = takes_;
   next.push_back(take);
   change(std::move(next));
-  write(take);
   return take;
+}
+
+// All but the last frame: another one at the same time may replace it.
+void TakeRecorder::save() { save_until(recording_->frames() - 1); }
+
+void TakeRecorder::save_until(int ready) {
+  const RecordedTake& take = *recording_;
+  if (ready <= std::max(0, saved_)) return;
+  const bool first = saved_ < 0;
+  const int from = std::max(0, saved_);
+  write(first, [piece = piece_of(take, from, ready), first](std::ostream& file) {
+    if (first) write_take_begin(piece, file);
+    write_frames(piece, file);
+  });
+  saved_ = ready;
 }
 
 void TakeRecorder::add_take(RecordedTake take) {
@@ -131,19 +164,23 @@ void TakeRecorder::change(Takes next) {
   takes_ = std::move(next);
 }
 
-void TakeRecorder::write(const std::shared_ptr<const RecordedTake>& take) {
+void TakeRecorder::write(bool begins, std::function<void(std::ostream&)> what) {
   const auto failed = std::make_shared<std::string>();
   Worker::get().run(
-      [take, failed, journal = journal_] {
+      [begins, what = std::move(what), failed, journal = journal_] {
+        if (!begins && journal->lost) return;
+        journal->lost = true;
         if (!journal->file) {
           *failed = journal->missing;
           return;
         }
         std::ostringstream text;
         if (journal->file->size() == 0) write_takes_header(text);
-        write_take(*take, text);
+        what(text);
         if (const std::error_code failure = journal->file->append(text.str()))
           *failed = utf8_of(journal->file->path()) + ": " + failure.message();
+        else
+          journal->lost = false;
       },
       [failed] {
         if (!failed->empty())

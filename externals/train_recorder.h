@@ -1,7 +1,9 @@
-// Takes that [gait.train] records: in memory, and on disk as soon as each has ended.
+// Takes that [gait.train] records: in memory, and on disk while they are recorded.
 #pragma once
 
 #include <filesystem>
+#include <functional>
+#include <iosfwd>
 #include <memory>
 #include <span>
 #include <string>
@@ -18,7 +20,7 @@ class TakeRecorder {
   static constexpr double longest_take = 600;  // seconds
   static constexpr int most_frames = 72000;    // of a take: 600 s at 120 frames per second
 
-  // `journal`: file that takes are written to as they end. What an earlier session left there is
+  // `journal`: file that takes are written to. What an earlier session left there is
   // moved aside first; while another box or another Pd writes there, this one's is numbered
   // (NAME-2.takes). `blocking`: write at once instead of on the worker.
   TakeRecorder(const std::filesystem::path& journal, bool blocking);
@@ -34,6 +36,9 @@ class TakeRecorder {
   // A frame at this time in seconds; false when the take is full. Frames without progress in time
   // replace the one before.
   bool add(double time, std::span<const float> inputs, std::span<const float> outputs);
+  // Writes the frames that have come since it was called last, on the worker. To be called now and
+  // then while it records.
+  void save();
   // The take just ended; null when nothing was recorded.
   std::shared_ptr<const RecordedTake> stop();
 
@@ -44,7 +49,9 @@ class TakeRecorder {
 
  private:
   void change(Takes next);
-  void write(const std::shared_ptr<const RecordedTake>& take);
+  void save_until(int frames);
+  // Writes a piece of a take on the worker; `begins`: its first one. `what` is all that it needs.
+  void write(bool begins, std::function<void(std::ostream&)> what);
 
   // Opens and locks the file. Returns why it cannot: busy when another box or program has locked
   // it.
@@ -56,6 +63,7 @@ class TakeRecorder {
   bool blocking_;
   std::unique_ptr<RecordedTake> recording_;
   double begin_ = 0;
+  int saved_ = -1;  // frames of the take on disk; -1: not even its first line
   Takes takes_;
   std::vector<Takes> before_;
 };

@@ -57,6 +57,12 @@ class Viterbi final : public ModelPlayer<Recognising> {
   }
 
   void in(const Arguments& arguments) { whole_frame(arguments, false); }
+  // A phone's stream from [gait.osc], with its name first.
+  void plain(const Arguments& arguments) {
+    if (arguments.size() < 1) arguments.fail("expected a name and numbers");
+    const auto atoms = arguments.atoms().subspan(1);
+    in(Arguments(box().name(), "plain", static_cast<int>(atoms.size()), atoms.data()));
+  }
   void pose(const Arguments& arguments) { whole_frame(arguments, true); }
   void list(const Arguments& arguments) {
     whole_frame(arguments,
@@ -325,9 +331,9 @@ class Viterbi final : public ModelPlayer<Recognising> {
 
 void setup_viterbi() {
   Class<Viterbi>("gait.viterbi~", multichannel_class)
-      .messages<&Viterbi::in, &Viterbi::pose, &Viterbi::single<&set_joint>,
+      .messages<&Viterbi::in, &Viterbi::pose, &Viterbi::plain, &Viterbi::single<&set_joint>,
                 &Viterbi::single<&set_quaternion>, &Viterbi::single<&set_euler>>(
-          {"in", "pose", "joint", "quat", "euler"})
+          {"in", "pose", "plain", "joint", "quat", "euler"})
       .bang<&Viterbi::bang>()
       .list<&Viterbi::list>()
       .messages<&Viterbi::decoder, &Viterbi::mask, &Viterbi::set<&ViterbiSetting::rate>,
@@ -337,6 +343,7 @@ void setup_viterbi() {
                 &Viterbi::resend>({"decoder", "mask", "rate", "memory", "margin", "hold", "timeout",
                                    "ahead", "onlost", "resend"})
       .common()
+      .refuse_others()
       .dsp();
 }
 

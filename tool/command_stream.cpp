@@ -11,6 +11,7 @@
 #include "gait/motion/kinematics.h"
 #include "gait/motion/resample.h"
 #include "gait/osc/destination.h"
+#include "gait/osc/forms.h"
 #include "gait/osc/humanoid_sender.h"
 #include "gait/osc/rig_sender.h"
 #include "gait/platform/path_text.h"
@@ -81,8 +82,9 @@ class FrameTeller {
                        places_);
     body_->read(world_, places_, pose_);
   }
-  void send(const osc::Destination& to, std::span<const osc::PacketTemplate> packets) {
-    for (const osc::PacketTemplate& packet : packets)
+  template <class Packet>
+  void send(const osc::Destination& to, std::span<const Packet> packets) {
+    for (const Packet& packet : packets)
       if (!to.send(packet.bytes())) ++refused_;
   }
 
@@ -122,8 +124,8 @@ void add_options(CLI::App& app, StreamOptions& options) {
   add_value(app, "--to", "HOST:PORT", options.to,
             "Where to; avatars listen on port 39539 by custom")
       ->required();
-  add_choice(app, "--form", {"vmc", "natnet", "neuron", "gait"}, options.form,
-             "vmc, natnet, neuron, or gait (the rig as it is)");
+  add_choice(app, "--form", osc::form_names(true), options.form,
+             osc::form_names_text(true) + " (the rig as it is)");
   add_value(app, "--rate", "HZ", options.rate, "Frames per second (the clip's)")
       ->check(within(1, 1000));
   app.add_flag("--loop", options.loop, "Again and again, until Ctrl-C")->default_str("");

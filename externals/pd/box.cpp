@@ -25,6 +25,15 @@ t_class* proxy_class() {
   return cls;
 }
 
+// What an error is about: its text, whatever numbers are in it.
+std::size_t without_numbers(const std::string& text) {
+  std::size_t hash = 14695981039346656037U;
+  for (const char c : text)
+    if ((c < '0' || c > '9') && c != '-' && c != '.')
+      hash = (hash ^ static_cast<unsigned char>(c)) * 1099511628211U;
+  return hash;
+}
+
 void take_anything(ColdInlet::Proxy* proxy, t_symbol* selector, int count, t_atom* atoms) {
   try {
     proxy->take(proxy->self,
@@ -36,7 +45,27 @@ void take_anything(ColdInlet::Proxy* proxy, t_symbol* selector, int count, t_ato
 
 }  // namespace
 
-void say_error(Box& box, const std::string& what) { pd_error(&box, "%s", what.c_str()); }
+void say_error(Box& box, const std::string& what) {
+  const std::size_t about = without_numbers(what);
+  Box::Said* said = &box.said[0];  // the same error's, else the oldest
+  for (Box::Said& other : box.said) {
+    if (other.what == about) {
+      said = &other;
+      break;
+    }
+    if (other.at < said->at) said = &other;
+  }
+  if (said->what == about && clock_gettimesince(said->at) < 1000) {
+    ++said->unsaid;
+    return;
+  }
+  const int times = said->what == about ? said->unsaid + 1 : 1;
+  *said = {about, clock_getlogicaltime(), 0};
+  if (times > 1)
+    pd_error(&box, "%s (%d times since it was said last)", what.c_str(), times);
+  else
+    pd_error(&box, "%s", what.c_str());
+}
 void complain(Box& box, const std::string& what) { say_error(box, box.name() + (": " + what)); }
 
 ColdInlet::ColdInlet(Box& box, void* self, Take take) {

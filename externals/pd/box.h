@@ -14,16 +14,25 @@
 
 namespace gait::pd {
 
-// What Pd keeps of an object.
+// What Pd keeps of an object. Pd makes it of zeros.
 struct Box {
   t_object object;
   void* self;
+  // Errors said lately, so that what frames cause is said once a second: what they are about, when
+  // (Pd's time), and how often since.
+  static constexpr int most_said = 4;
+  struct Said {
+    std::size_t what;
+    double at;
+    int unsaid;
+  } said[most_said];
 
   t_pd* pd() { return &object.ob_pd; }
   const char* name() const { return class_getname(object.ob_pd); }
 };
 
-// Prints an error on the console, for this box ("Find last error" leads to it).
+// Prints an error on the console, for this box ("Find last error" leads to it). The same error with
+// other numbers is printed once a second at most, with its count.
 void say_error(Box& box, const std::string& what);
 // The same with the box's name first: `gait.map: ...`.
 void complain(Box& box, const std::string& what);

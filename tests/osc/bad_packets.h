@@ -5,6 +5,7 @@
 #include <string>
 #include <vector>
 
+#include "gait/osc/forms.h"
 #include "gait/osc/humanoid_sender.h"
 #include "gait/osc/packet_template.h"
 
@@ -33,14 +34,25 @@ inline std::vector<Packet> honest_packets() {
   add("/motive/skeleton/id/bone", "sis", {"A", "LFArm"}, numbers);
   add("/perception_joint", "ifffffff", {}, numbers);
   add("/joint", "siifffff", {"l_knee"}, numbers);
+  add("/ZIGSIM/a/accel", "fff", {}, numbers);
+  add("/wek/inputs", "ffffffffff", {}, numbers);
+  add("/pose/left_knee", "ffff", {}, numbers);
+  const std::string phone = R"({"sensordata":{"accel":{"x":0,"y":0,"z":1}}})";
+  const auto bytes = std::as_bytes(std::span(phone));
+  packets.emplace_back(bytes.begin(), bytes.end());
   add("/gait/frame", "ffffffffff", {}, numbers);
   add("/gait/quat", "sfffffff", {"LeftArm"}, numbers);
   add("/gait/bone", "ssfff", {"LeftArm", "Spine2"}, numbers);
   add("/gait/joint", "sfff", {"Head"}, numbers);
-  osc::HumanoidSender sender(osc::MocapForm::natnet, {0, 1, 2, 3, 4, 5, 6, 7, 8, 9});
-  sender.pack({}, 0, 1);
-  for (const auto& packet : sender.packets())
-    packets.emplace_back(packet.bytes().begin(), packet.bytes().end());
+  std::vector<int> bones;
+  for (int bone = 0; bone < humanoid_bones; ++bone) bones.push_back(bone);
+  for (const osc::FormFacts& facts : osc::all_forms()) {
+    if (!facts.packer) continue;
+    osc::HumanoidSender sender(facts.form, bones);
+    sender.pack({}, 0, 0);
+    for (const auto& packet : sender.packets())
+      packets.emplace_back(packet.bytes().begin(), packet.bytes().end());
+  }
   return packets;
 }
 

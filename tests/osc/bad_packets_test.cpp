@@ -36,7 +36,7 @@ TEST(BadPackets, mutated_ones_leave_a_body_of_finite_numbers) {
   while (std::chrono::steady_clock::now() < end) {
     const Packet packet =
         random() % 8 == 0 ? honest[random() % honest.size()] : mutated(honest, random);
-    listened.hear(packet, packets * 0.001, random() % 6);
+    listened.hear(packet, packets * 0.001, static_cast<std::uint8_t>(random() % 6));
     ++packets;
     for (const auto& frame : listened.frames) {
       if (!live.take(frame)) continue;

@@ -17,9 +17,19 @@ class Listened final : public osc::EventSink, public osc::FrameSink {
   explicit Listened(int slots = 1, osc::MocapForm form = osc::MocapForm::none)
       : reader(form), gatherer(slots) {}
 
-  // `time`: of arrival, seconds. Another `sender`, another program.
-  void hear(std::span<const std::byte> packet, double time, std::uint64_t sender = 1) {
+  // `time`: of arrival, seconds. Another `sender`, another machine.
+  void hear(std::span<const std::byte> packet, double time, std::uint8_t sender = 1) {
+    hear(packet, time, machine(sender));
+  }
+  static UdpAddress machine(std::uint8_t number, std::uint16_t port = 1) {
+    return {{0, 0, 0, 0, 0, 0, 0, 0, 0, 0, 0xFF, 0xFF, 10, 0, 0, number}, port};
+  }
+  void hear(std::span<const std::byte> packet, double time, const UdpAddress& sender) {
     arrival = {time, sender};
+    if (!osc::is_osc(packet)) {
+      count(reader.read(packet, arrival, *this));
+      return;
+    }
     faulty += osc::open_packet(
                   packet,
                   [](void* self, const osc::OscMessage& message) {
@@ -28,7 +38,8 @@ class Listened final : public osc::EventSink, public osc::FrameSink {
                   this)
                   .faulty;
   }
-  void hear(std::span<const osc::PacketTemplate> packets, double time, std::uint64_t sender = 1) {
+  template <class Packet, class Sender = std::uint8_t>
+  void hear_all(const std::span<const Packet>& packets, double time, Sender sender = Sender{1}) {
     for (const auto& packet : packets) hear(packet.bytes(), time, sender);
   }
   // One message, all numbers as f or i.
@@ -59,17 +70,10 @@ class Listened final : public osc::EventSink, public osc::FrameSink {
   int faulty = 0, unknown = 0;
 
  private:
-  void message(const osc::OscMessage& message) {
-    switch (reader.read(message, arrival, *this)) {
-      case osc::Reading::faulty:
-        ++faulty;
-        break;
-      case osc::Reading::unknown:
-        ++unknown;
-        break;
-      case osc::Reading::taken:
-        break;
-    }
+  void message(const osc::OscMessage& message) { count(reader.read(message, arrival, *this)); }
+  void count(osc::Reading reading) {
+    if (reading == osc::Reading::faulty) ++faulty;
+    if (reading == osc::Reading::unknown) ++unknown;
   }
 };
 

@@ -4,6 +4,7 @@
 #include <gtest/gtest.h>
 
 #include <cmath>
+#include <functional>
 #include <random>
 #include <tuple>
 
@@ -103,6 +104,97 @@ TEST(JitterBuffer, evens_out_again_after_a_burst) {
   }
   EXPECT_EQ(left.size(), 620u);
   EXPECT_LT(unevenness(left, 60), 0.5 * 0.015 / std::sqrt(12));
+}
+
+// Each second the network hands over nothing for `held` seconds, and then all that it held back.
+// Share of the intervals, after the first two seconds, that are within 3 ms of the sender's.
+double even_share(double held, double delay, double rate, bool clocked, unsigned seed) {
+  osc::JitterBuffer buffer(1);
+  buffer.set_delay(delay);
+  std::mt19937 random(seed);
+  std::uniform_real_distribution<double> late(0, 0.004);
+  struct Arrival {
+    double time, sent;
+  };
+  std::vector<Arrival> arrivals;
+  const int frames = static_cast<int>(12 * rate);
+  for (int i = 0; i < frames; ++i) {
+    const double sent = i / rate;
+    double time = sent + late(random);
+    const double in_second = std::fmod(time, 1.0);
+    if (in_second > 1 - held) time += 1 - in_second;
+    arrivals.push_back({std::max(time, arrivals.empty() ? 0 : arrivals.back().time + 2e-5), sent});
+  }
+  std::vector<double> left;
+  std::size_t next = 0;
+  for (double now = 0; now < 13; now += 0.001) {
+    for (; next < arrivals.size() && arrivals[next].time <= now; ++next) {
+      const float value = static_cast<float>(next);
+      buffer.push(arrivals[next].time, std::span(&value, 1),
+                  clocked ? 4711 + arrivals[next].sent : osc::not_sent);
+    }
+    // One at a time, as [gait.osc] asks.
+    if (const auto frame = buffer.pop(now); !frame.empty()) {
+      EXPECT_EQ(frame[0], static_cast<float>(left.size()));
+      left.push_back(now);
+    }
+  }
+  EXPECT_EQ(left.size(), arrivals.size());
+  int even = 0, all = 0;
+  for (std::size_t i = static_cast<std::size_t>(2 * rate); i + 1 < left.size(); ++i, ++all)
+    even += std::abs(left[i + 1] - left[i] - 1 / rate) <= 0.003 ? 1 : 0;
+  return static_cast<double>(even) / all;
+}
+
+TEST(JitterBuffer, silences_as_long_as_the_delay_leave_no_gap) {
+  for (const bool clocked : {true, false})
+    for (const double rate : {30.0, 60.0, 120.0})
+      for (const double held : {0.12, 0.2, 0.3}) {
+        double least = 1;
+        for (unsigned seed = 0; seed < 8; ++seed)
+          least = std::min(least, even_share(held, held, rate, clocked, seed));
+        std::printf("%s, %.0f fps, %.0f ms held each second: %.1f %% within 3 ms\n",
+                    clocked ? "clock" : "no clock", rate, 1000 * held, 100 * least);
+        EXPECT_GE(least, 0.95) << clocked << " " << rate << " " << held;
+      }
+}
+
+// A clock that stands still, jumps, goes at another speed or in thousandths.
+TEST(JitterBuffer, a_clock_is_used_only_while_it_goes_as_time_does) {
+  const auto uneven_by = [](const std::function<double(int, double)>& clock) {
+    osc::JitterBuffer buffer(1);
+    buffer.set_delay(0.05);
+    std::mt19937 random(6);
+    std::uniform_real_distribution<double> late(0, 0.03);
+    std::vector<double> arrivals;
+    for (int i = 0; i < 600; ++i)
+      arrivals.push_back(std::max(i / 60.0 + late(random), i ? arrivals.back() + 1e-4 : 0));
+    std::vector<Left> left;
+    std::size_t next = 0;
+    for (double now = 0; now < 11; now += 0.001) {
+      for (; next < arrivals.size() && arrivals[next] <= now; ++next) {
+        const float value = static_cast<float>(next);
+        buffer.push(arrivals[next], std::span(&value, 1),
+                    clock(static_cast<int>(next), static_cast<double>(next) / 60));
+      }
+      for (auto frame = buffer.pop(now); !frame.empty(); frame = buffer.pop(now))
+        left.push_back({now, frame[0], now - buffer.arrival()});
+    }
+    EXPECT_EQ(left.size(), 600u);
+    for (const Left& frame : left) EXPECT_LE(frame.waited, 0.0521);
+    return unevenness(left, 60);
+  };
+  const double counted = uneven_by([](int, double) { return osc::not_sent; });
+  const double good = uneven_by([](int, double t) { return t; });
+  EXPECT_LT(good, 0.0006);
+  EXPECT_LT(uneven_by([](int, double t) { return 1000 * t; }), 0.0006);
+  EXPECT_LT(uneven_by([](int, double t) { return std::floor(1000 * t) / 1000; }), 0.001);
+  EXPECT_NEAR(uneven_by([](int, double) { return 0.0; }), counted, 1e-9);
+  EXPECT_NEAR(uneven_by([](int, double t) { return t / 3; }), counted, 5e-4);
+  EXPECT_NEAR(uneven_by([](int i, double) { return i % 2 * 7.0; }), counted, 1e-9);
+  EXPECT_LT(uneven_by([](int i, double t) { return i < 300 ? t : t - 4; }), 0.003);  // restarts
+  std::printf("%.2f ms uneven by a clock, %.2f by counting\n", 1000 * good, 1000 * counted);
+  EXPECT_LT(counted, 0.004);
 }
 
 TEST(JitterBuffer, a_long_delay_holds_nothing_back_for_ever) {

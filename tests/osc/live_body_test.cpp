@@ -73,7 +73,8 @@ Decided from_stream(const Clip& clip, CalibrationPose stand, double wobble = 0) 
                wobble * Eigen::Vector3d(normal(random), normal(random), normal(random))) *
            turn;
   double time = 0;
-  for (int i = 0; i < 10; ++i) listened.hear(sender.packets(standing).packets(), time += 1 / 30.0);
+  for (int i = 0; i < 10; ++i)
+    listened.hear_all(sender.packets(standing).packets(), time += 1 / 30.0);
   for (const auto& frame : listened.frames) {
     if (&frame == &listened.frames[5]) live.calibrate(stand);
     EXPECT_TRUE(live.take(frame));
@@ -82,7 +83,7 @@ Decided from_stream(const Clip& clip, CalibrationPose stand, double wobble = 0) 
   std::vector<std::vector<float>> inputs;
   for (const HumanoidPose& pose : humanoid_poses(clip, body)) {
     listened.frames.clear();
-    listened.hear(sender.packets(pose).packets(), time += 1 / 30.0);
+    listened.hear_all(sender.packets(pose).packets(), time += 1 / 30.0);
     EXPECT_EQ(listened.frames.size(), 1u);
     EXPECT_TRUE(live.take(listened.frames.at(0)));
     inputs.emplace_back(live.frame().inputs.begin(), live.frame().inputs.end());
@@ -142,7 +143,7 @@ TEST(LiveBody, bones_that_stop_are_held_then_missing_and_taken_in_again) {
     const bool lost = frame >= 30 && frame < 60;
     if (lost) pose.turned.reset(index_of(Bone::left_lower_arm));
     listened.frames.clear();
-    listened.hear(sender.packets(pose).packets(), frame / 30.0);
+    listened.hear_all(sender.packets(pose).packets(), frame / 30.0);
     ASSERT_TRUE(live.take(listened.frames.at(0)));
     for (std::size_t i = 0; i < demo()->inputs.size(); ++i) {
       if (live.there(static_cast<int>(i)) == there[i]) continue;
@@ -212,13 +213,13 @@ TEST(LiveBody, a_rig_told_by_its_own_names_is_the_walk_itself) {
   const Decided file = from_file(clip);
   osc::RigSender sender(clip.skeleton);
   Listened listened;
-  listened.hear(sender.rig(), 0);
+  listened.hear_all(sender.rig(), 0);
   osc::LiveBody live(demo());
   const int hips = body_roles(*demo()->body).hips;
   for (int frame = 0; frame < clip.frames(); ++frame) {
     listened.frames.clear();
     sender.pack(clip.pose(frame), clip.translation(frame), frame);
-    listened.hear(sender.packets(), frame / 30.0);
+    listened.hear_all(sender.packets(), frame / 30.0);
     ASSERT_EQ(listened.frames.size(), 1u);
     ASSERT_TRUE(live.take(listened.frames[0]));
     EXPECT_TRUE(live.frame().posed);

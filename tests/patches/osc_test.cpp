@@ -576,6 +576,122 @@ TEST(Osc, takes_what_other_programs_send_and_finds_out_which_form_it_is) {
   EXPECT_EQ(run.errors().size(), 1u) << run.log;
 }
 
+// Steps decided of a walk whose packets a network holds back for `held` seconds of every second.
+int steps_decided(double held, double jitter) {
+  LivePatch patch;
+  const int viterbi = patch.object("gait.viterbi~ gait-demo");
+  patch.connect(patch.osc, 0, viterbi);
+  patch.record(viterbi, 5, "seen");
+  patch.record(patch.osc, 0, "in");
+  std::size_t sent_frames = 0;
+  const PdRun run = patch.run([&](const PdRun&) {
+    if (jitter > 0) patch.tell("jitter " + std::to_string(jitter));
+    wait_until(now() + 0.1);
+    const HumanoidBody body = osc::humanoid_of(*demo()->body);
+    const auto poses = humanoid_poses(unseen_walk("proud", 7).clip, body);
+    const osc::Destination to("127.0.0.1", patch.port);
+    FullSuit suit;
+    const double start = now();
+    sent_frames = poses.size();
+    for (std::size_t frame = 0; frame < poses.size(); ++frame) {
+      double due = static_cast<double>(frame) / 30;
+      const double in_second = std::fmod(due, 1.0);
+      if (in_second > 1 - held) due += 1 - in_second;
+      wait_until(start + due);
+      suit.send(poses[frame], 0, static_cast<double>(frame) / 30, to);
+    }
+    wait_until(now() + jitter / 1000 + 0.3);
+  });
+  EXPECT_TRUE(run.errors().empty()) << run.log;
+  EXPECT_EQ(count(run, "in", "in "), static_cast<int>(sent_frames));
+  int steps = 0;
+  std::string label, style;
+  for (const std::string& line : run.recorded("seen")) {
+    if (line.starts_with("style ")) {
+      EXPECT_NE(line, style) << "told twice";
+      style = line;
+    }
+    if (!line.starts_with("state ")) continue;
+    const std::string now_label = line.substr(6, line.find(' ', 6) - 6);
+    steps += now_label != label ? 1 : 0;
+    label = now_label;
+  }
+  return steps;
+}
+
+TEST(Osc, bursts_within_the_jitter_buffer_cost_no_step) {
+  GAIT_NEEDS_PD();
+  const int undisturbed = steps_decided(0, 0);
+  EXPECT_GE(undisturbed, 10);
+  for (const double held : {0.12, 0.2, 0.3}) {
+    const int steps = steps_decided(held, 1000 * held);
+    std::printf("%.0f ms held each second: %d steps, undisturbed %d\n", 1000 * held, steps,
+                undisturbed);
+    EXPECT_NEAR(steps, undisturbed, 1) << held;
+  }
+}
+
+TEST(Osc, hears_both_families_of_addresses_and_lists_and_chooses_senders) {
+  GAIT_NEEDS_PD();
+  LivePatch patch;
+  patch.record(patch.osc, 0, "in");
+  const PdRun run = patch.run([&](const PdRun& running) {
+    const HumanoidPose pose = standing_pose(osc::humanoid_of(*demo()->body), CalibrationPose::t);
+    const osc::Destination four("127.0.0.1", patch.port), six("::1", patch.port);
+    FullSuit suit, other;
+    const auto both = [&](int frames) {
+      for (int i = 0; i < frames; ++i) {
+        suit.send(pose, 0, 0, four);
+        other.send(pose, 0, 0, six);
+        wait_until(now() + 1 / 60.0);
+      }
+    };
+    both(30);
+    patch.tell("senders");
+    patch.tell("from ::1");
+    wait_until(now() + 0.2);
+    both(10);
+    patch.tell("dump");
+    EXPECT_TRUE(running.wait_for("info", "from ::1"));
+  });
+  EXPECT_TRUE(run.errors().empty()) << run.log;
+  EXPECT_EQ(count(run, "info", "sender 127.0.0.1:"), 1) << run.log;
+  EXPECT_EQ(count(run, "info", "sender [::1]:"), 1);
+  EXPECT_EQ(count(run, "info", "performer 0 127.0.0.1:"), 1);
+  EXPECT_EQ(count(run, "info", "performer 0 [::1]:"), 1);
+}
+
+TEST(Osc, phones_reach_patches_and_takes_and_outputs_reach_wekinators_listeners) {
+  GAIT_NEEDS_PD();
+  LivePatch patch;
+  patch.record(patch.osc, 0, "plain");
+  const int train = patch.object("gait.train moves -in 3 -blocking");
+  patch.connect(patch.osc, 0, train);
+  patch.record(train, 1, "takes");
+  patch.at_start({"record shake"}, train);
+  const int port = free_port();
+  std::vector<float> heard;
+  const PdRun run = patch.run([&](const PdRun&) {
+    osc::Receiver listener({.port = port, .form = osc::MocapForm::wekinator});
+    patch.tell("to localhost " + std::to_string(port) + " wekinator");
+    const osc::Destination to("127.0.0.1", patch.port);
+    osc::PacketTemplate phone;
+    phone.add("/ZIGSIM/a1/accel", "fff");
+    for (int i = 0; i < 30; ++i) {
+      phone.set(std::vector<float>{static_cast<float>(i), 1, 2});
+      to.send(phone.bytes());
+      wait_until(now() + 1 / 60.0);
+    }
+    patch.tell("outputs 0.25 0.5");
+    wait_until(now() + 0.1);
+    // What Wekinator's listeners get is not what Wekinator takes: read from the socket's count.
+    heard.push_back(static_cast<float>(listener.received().messages));
+  });
+  EXPECT_TRUE(run.errors().empty()) << run.log;
+  EXPECT_EQ(count(run, "plain", "plain accel "), 30);
+  EXPECT_EQ(heard, std::vector<float>{1});
+}
+
 #ifdef GAIT_TOOL
 
 // `gait stream` four times over, each time another suit.
@@ -638,7 +754,7 @@ TEST(Osc, what_it_cannot_do_is_said_in_a_line_and_nothing_changes) {
       {"listen 0", "65535"},
       {"listen " + busy, "is taken by another program"},
       {"listen 39540 fax", "any, or a form"},
-      {"to localhost 39539 fax", "vmc, natnet, neuron or gait"},
+      {"to localhost 39539 fax", "wekinator for"},
       {"to no.such.host.invalid 39539", "no host of that name"},
       {"calibrate x", "t or i"},
       {"yaw north", "yaw"},

@@ -166,6 +166,78 @@ TEST(TrainObject, loses_no_take_when_pd_is_killed) {
   EXPECT_TRUE(info[2].starts_with("take 2 wave ")) << info[2];
 }
 
+// At moments of a recording that nothing in the box knows of.
+TEST(TrainObject, loses_a_second_at_most_of_a_take_when_pd_is_killed_while_it_records) {
+  GAIT_NEEDS_PD();
+  std::mt19937 random(17);
+  std::uniform_real_distribution<double> moment(1.2, 3);
+  double most_lost = 0;
+  for (int time = 0; time < 20; ++time) {
+    std::string state = ::testing::TempDir() + "gait_state_XXXXXX";
+    ASSERT_NE(mkdtemp(state.data()), nullptr);
+    RunOptions options{.state = state};
+    double recorded = 0;
+    {
+      Score score;
+      score.say("record wave");
+      for (int frame = 0; frame < 200; ++frame) score.say("in " + std::to_string(frame) + " 1", 20);
+      TrainPatch patch("moves -in 2", score.text);
+      patch.record(patch.object("receive teach"), 0, "given");
+      options.meanwhile = [&](const PdRun& running) {
+        EXPECT_TRUE(running.wait_for("given", "record"));
+        std::this_thread::sleep_for(std::chrono::duration<double>(moment(random)));
+        recorded = 0.02 * static_cast<double>(running.recorded("given").size() - 2);
+        EXPECT_EQ(kill(running.process(), SIGKILL), 0);
+      };
+      EXPECT_NE(run_pd(patch, options).exit_code, 0);
+      options.meanwhile = {};
+    }
+    TrainPatch patch("moves -in 2 -blocking", "");
+    patch.at_start({"restore"}, patch.train);
+    patch.quit_after(10);
+    const PdRun run = run_pd(patch, options);
+    double offered = 0, restored = 0;
+    for (const std::string& line : run.recorded("info")) {
+      std::sscanf(line.c_str(), "unfinished wave %lf", &offered);
+      std::sscanf(line.c_str(), "take 0 wave %lf", &restored);
+    }
+    EXPECT_GT(offered, 0) << run.log;
+    EXPECT_EQ(offered, restored);
+    most_lost = std::max(most_lost, recorded - restored);
+  }
+  std::printf("at most %.2f s lost\n", most_lost);
+  EXPECT_LE(most_lost, 1);
+}
+
+// What [gait.osc] says beside frames is no error; what is one is said once a second.
+TEST(TrainObject, says_what_frames_cause_once_a_second) {
+  GAIT_NEEDS_PD();
+  std::string score;
+  for (int frame = 0; frame < 100; ++frame)
+    score += "20 teach root 0 0 0 0;\n0 teach mask LeftArm 0;\n0 teach dance " +
+             std::to_string(frame) + ";\n0 teach jump;\n";
+  TrainPatch patch("moves -in 2 -blocking", score);
+  const int map = patch.object("gait.map gait-demo");
+  patch.connect(patch.object("receive teach"), 0, map);
+  patch.quit_after(2300);
+  const PdRun run = run_pd(patch, {});
+  const auto errors = run.errors();
+  int dances = 0, roots = 0, maps = 0;
+  for (const std::string& line : errors) {
+    dances += line.find("gait.train: dance: no such message") != std::string::npos ? 1 : 0;
+    roots += line.find("gait.train: root") != std::string::npos ||
+                     line.find("gait.train: mask") != std::string::npos
+                 ? 1
+                 : 0;
+    maps += line.find("gait.map: root") != std::string::npos ? 1 : 0;
+  }
+  EXPECT_EQ(roots, 0) << run.log;
+  EXPECT_GE(dances, 2) << run.log;
+  EXPECT_LE(dances, 3) << run.log;
+  EXPECT_GE(maps, 1) << run.log;
+  EXPECT_LE(errors.size(), 6u * 3u) << run.log;
+}
+
 TEST(TrainObject, learns_walks_from_poses) {
   GAIT_NEEDS_PD();
   Patch patch;

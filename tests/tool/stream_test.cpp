@@ -13,7 +13,11 @@
 #include "gait/files/bvh.h"
 #include "gait/motion/kinematics.h"
 #include "gait/motion/rotation.h"
+#include "gait/osc/destination.h"
+#include "gait/osc/forms.h"
+#include "gait/osc/packet_template.h"
 #include "gait/osc/receiver.h"
+#include "osc/six_poses.h"
 #include "tool_runner.h"
 
 namespace gait::testing {
@@ -116,6 +120,118 @@ TEST(StreamAndListen, say_what_is_wrong_in_one_line) {
           "is taken by another program");
   refused({"listen", free_port(), "-o", folder / "a.bvh", "--seconds", "0.2"}, 1, "no frame");
   EXPECT_FALSE(std::filesystem::exists(folder / "a.bvh"));
+}
+
+// Six poses through `gait stream` and `gait listen` in each form, over real sockets.
+TEST(StreamAndListen, six_poses_arrive_in_every_form_to_a_tenth_of_a_degree) {
+  const TestFolder folder;
+  const std::vector<HumanoidPose> poses = six_poses();
+  // A rig of Unity's bones, each pose a quarter of a second.
+  Clip clip;
+  clip.frame_rate = 60;
+  for (int bone = 0; bone < main_bones; ++bone)
+    clip.skeleton.joints.push_back({std::string(bone_name(bone)),
+                                    bone_parent(bone),
+                                    bone == 0 ? Eigen::Vector3d(0, 0, 0) : usual_offset(bone),
+                                    {}});
+  clip.resize(15 * static_cast<int>(poses.size() + 1));
+  for (int frame = 0; frame < clip.frames(); ++frame) {
+    // First the head the other way: what a rig's straight head is, is judged from the mean.
+    const int which = frame / 15 - 1;
+    const HumanoidPose pose =
+        which < 0 ? posed({{Bone::head, poses[3].turns[index_of(Bone::head)].conjugate()}})
+                  : poses[static_cast<std::size_t>(which)];
+    for (int bone = 0; bone < main_bones; ++bone) clip.pose(frame)[bone] = pose.local_turn(bone);
+    clip.translation(frame)[0] = pose.places[0];
+  }
+  write_bvh(bvh_from_clip(clip), folder / "six.bvh");
+  for (const std::string& form : osc::form_names(true)) {
+    if (form == "gait") continue;
+    const std::string port = free_port(), out = folder / (form + ".bvh");
+    int listened = -1;
+    std::thread listener([&] {
+      listened = std::system(
+          ("'" GAIT_TOOL "' listen " + port + " -o '" + out + "' --seconds 4 >/dev/null 2>&1")
+              .c_str());
+    });
+    std::this_thread::sleep_for(std::chrono::milliseconds(700));
+    const ToolRun streamed =
+        run_tool({"stream", folder / "six.bvh", "--to", "localhost:" + port, "--form", form});
+    EXPECT_EQ(streamed.exit_code, 0) << streamed.err;
+    listener.join();
+    ASSERT_EQ(listened, 0) << form;
+    const Clip got = read(out);
+    ASSERT_NEAR(got.frames(), clip.frames(), 2) << form;
+    const WorldPoses world = world_poses(got);
+    for (std::size_t i = 0; i < poses.size(); ++i) {
+      // In the midst of the pose, counted from the end.
+      const int frame = got.frames() - 15 * static_cast<int>(poses.size() - i) + 7;
+      HumanoidPose pose;
+      for (int bone = 0; bone < humanoid_bones; ++bone) {
+        const int joint = got.skeleton.find(std::string(bone_name(bone)));
+        if (joint < 0) continue;
+        const auto at = static_cast<std::size_t>(frame * got.skeleton.size() + joint);
+        pose.turned.set(static_cast<std::size_t>(bone));
+        pose.turns[static_cast<std::size_t>(bone)] = world.rotations[at];
+        pose.placed.set(static_cast<std::size_t>(bone));
+        pose.places[static_cast<std::size_t>(bone)] = world.positions[at];
+      }
+      expect_same_body(poses[i], pose, *osc::form_named(form),
+                       form + ", pose " + std::to_string(i));
+    }
+  }
+}
+
+// A program that tracks arms and a face, as ../shared/cases/vmc-no-hips.py is one.
+class NoHips {
+ public:
+  explicit NoHips(const std::string& port) : to_("localhost", std::stoi(port)) {
+    for (const char* bone : {"Head", "LeftUpperArm"})
+      packets_.add("/VMC/Ext/Bone/Pos", "sfffffff", {bone});
+    packets_.add("/VMC/Ext/OK", "i");
+    packets_.add("/VMC/Ext/T", "f");
+  }
+  void send(int frame) {
+    const float turn = 0.01F * static_cast<float>(frame % 50);
+    packets_.set(std::vector<float>{0, 0, 0, turn, 0, 0, 1, 0, 0, 0, 0, turn, 0, 1, 1,
+                                    static_cast<float>(frame) / 60});
+    for (const auto& packet : packets_.packets()) to_.send(packet.bytes());
+  }
+  void run(double seconds) {
+    for (int frame = 0; frame < 60 * seconds; ++frame) {
+      send(frame);
+      std::this_thread::sleep_for(std::chrono::microseconds(16667));
+    }
+  }
+
+ private:
+  osc::Destination to_;
+  osc::PacketSequence packets_;
+};
+
+TEST(StreamAndListen, a_stream_without_hips_is_refused_with_the_bones_that_came) {
+  const TestFolder folder;
+  const std::string port = free_port();
+  std::thread sender([&] { NoHips(port).run(2.5); });
+  const ToolRun run = run_tool({"listen", port, "-o", folder / "a.bvh", "--seconds", "2"});
+  sender.join();
+  EXPECT_EQ(run.exit_code, 1);
+  EXPECT_NE(run.err.find("expected the bone Hips"), std::string::npos) << run.err;
+  EXPECT_NE(run.err.find("Head, LeftUpperArm (form vmc)"), std::string::npos) << run.err;
+}
+
+TEST(StreamAndListen, without_a_file_it_says_who_sends_what_and_how_evenly) {
+  const std::string port = free_port();
+  std::thread sender([&] { NoHips(port).run(3.5); });
+  const ToolRun run = run_tool({"listen", port, "--seconds", "3.2"});
+  sender.join();
+  EXPECT_EQ(run.exit_code, 0) << run.err;
+  EXPECT_NE(run.out.find("vmc: Head, LeftUpperArm\n"), std::string::npos) << run.out;
+  EXPECT_NE(run.out.find(" a second, 95 % of the gaps below"), std::string::npos) << run.out;
+  EXPECT_NE(run.out.find("2 bones; no Hips"), std::string::npos) << run.out;
+  EXPECT_NE(run.out.find("no legs"), std::string::npos) << run.out;
+  const ToolRun silent = run_tool({"listen", free_port(), "--seconds", "2.2"});
+  EXPECT_NE(silent.out.find("nothing comes"), std::string::npos) << silent.out;
 }
 
 TEST(StreamAndListen, end_cleanly_when_they_are_interrupted) {

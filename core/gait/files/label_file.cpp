@@ -5,7 +5,6 @@
 #include <cmath>
 #include <cstdint>
 #include <optional>
-#include <utility>
 
 #include "gait/error.h"
 #include "gait/numbers.h"
@@ -98,12 +97,6 @@ void append_seconds(std::string& text, double seconds) {
   text.append(digits.data(), end.ptr);
 }
 
-// The nearest frame, and how many frames later the time is.
-std::pair<int, double> nearest_frame(double frames) {
-  const int nearest = static_cast<int>(std::lround(frames));
-  return {nearest, frames - nearest};
-}
-
 std::optional<Foot> foot_named(std::string_view label) {
   std::string name;
   for (const char c : label) name += c >= 'A' && c <= 'Z' ? static_cast<char>(c - 'A' + 'a') : c;
@@ -166,10 +159,9 @@ void write_labels(const std::vector<LabelSegment>& segments, LabelForm form,
 std::vector<LabelSegment> labels_from_contacts(const std::vector<Contact>& contacts,
                                                double frame_rate) {
   std::vector<LabelSegment> segments;
-  for (std::size_t i = 0; i + 1 < contacts.size(); ++i)
-    if (contacts[i].foot != contacts[i + 1].foot)
-      segments.push_back({contacts[i].seconds(frame_rate), contacts[i + 1].seconds(frame_rate),
-                          std::string(foot_name(contacts[i].foot))});
+  for (const Step& step : steps_between(contacts))
+    segments.push_back(
+        {step.begin / frame_rate, step.end / frame_rate, std::string(foot_name(step.foot))});
   return segments;
 }
 
@@ -193,8 +185,8 @@ std::vector<Contact> contacts_from_labels(std::vector<LabelSegment> segments, do
         " in the step '" + segment.label + "' at " + std::to_string(segment.start) + " s";
     if (!(segment.end * frame_rate < most_labelled_frames))
       throw Error("expected fewer than 1e9 frames" + where + ", found more");
-    const auto [begin, begin_offset] = nearest_frame(segment.start * frame_rate);
-    const auto [end, end_offset] = nearest_frame(segment.end * frame_rate);
+    const int begin = static_cast<int>(std::lround(segment.start * frame_rate));
+    const int end = static_cast<int>(std::lround(segment.end * frame_rate));
     if (end <= begin) throw Error("expected at least one frame" + where + ", found none");
     if (follows && begin < contacts.back().frame)
       throw Error("expected steps one after the other, found an overlap" + where);
@@ -202,9 +194,9 @@ std::vector<Contact> contacts_from_labels(std::vector<LabelSegment> segments, do
       if (contacts.back().foot != *foot)
         throw Error("expected right and left steps in turn, found one foot twice" + where);
     } else {
-      contacts.push_back({begin, *foot, begin_offset});
+      contacts.push_back({begin, *foot});
     }
-    contacts.push_back({end, other(*foot), end_offset});
+    contacts.push_back({end, other(*foot)});
     follows = true;
   }
   return contacts;

@@ -223,7 +223,13 @@ JointRoles find_roles(const Clip& clip, const RoleTable& table) {
 std::vector<Role> roles_of_names(std::span<const std::string> names) {
   Skeleton alone;
   for (const std::string& name : names) alone.joints.emplace_back().name = name;
-  return find_roles(alone).of_joint;
+  // A tree would leave out shanks and toes that hang on no thigh: here nothing hangs on anything.
+  const std::vector<NamedRole> named = roles_from_names(alone);
+  const bool hips = std::ranges::find(named, Role::hips, &NamedRole::role) != named.end();
+  std::vector<Role> roles;
+  for (const NamedRole& joint : named)
+    roles.push_back(joint.vague && !hips ? Role::hips : joint.role);
+  return roles;
 }
 
 std::string missing_roles(const JointRoles& roles) {

@@ -21,7 +21,10 @@ struct Contact {
 
   double seconds(double frame_rate) const { return (frame + offset) / frame_rate; }
 
-  friend bool operator==(const Contact&, const Contact&) = default;
+  // The same touch, however well it is known when.
+  friend bool operator==(const Contact& a, const Contact& b) {
+    return a.frame == b.frame && a.foot == b.foot;
+  }
 };
 
 struct Step {

@@ -13,7 +13,7 @@ namespace gait {
 
 namespace {
 
-constexpr const char* first_line = "gait takes 1";
+constexpr const char *first_line = "gait takes 2", *first_line_before = "gait takes 1";
 constexpr int most_values = 10000, most_frames = 10000000;
 
 [[noreturn]] void fail(const std::string& path, int line, const std::string& expected) {
@@ -39,11 +39,32 @@ bool read_frame(const std::string& line, RecordedTake& take) {
   return true;
 }
 
+// The first line of a take; `frames` only where they are counted.
+bool read_take_begin(const std::string& line, bool counted, RecordedTake& take, int& frames) {
+  std::istringstream words(line);
+  std::string word;
+  if (!(words >> word) || word != "take") return false;
+  words >> std::ws;
+  if (words.peek() == '"')
+    words >> std::quoted(take.label);
+  else
+    words >> take.label;
+  if (counted && !(words >> frames)) return false;
+  return words >> take.inputs >> take.outputs && frames >= 0 && frames <= most_frames &&
+         take.inputs >= 0 && take.outputs >= 0 && take.inputs + take.outputs <= most_values;
+}
+
 }  // namespace
 
 void write_takes_header(std::ostream& file) { file << first_line << '\n'; }
 
 void write_take(const RecordedTake& take, std::ostream& file) {
+  write_take_begin(take, file);
+  write_frames(take, file);
+  write_take_end(file);
+}
+
+void write_take_begin(const RecordedTake& take, std::ostream& file) {
   const bool plain =
       !take.label.empty() && take.label.find_first_of(" \t\"\\") == std::string::npos;
   file << "take ";
@@ -51,7 +72,10 @@ void write_take(const RecordedTake& take, std::ostream& file) {
     file << take.label;
   else
     file << std::quoted(take.label);
-  file << ' ' << take.frames() << ' ' << take.inputs << ' ' << take.outputs << '\n';
+  file << ' ' << take.inputs << ' ' << take.outputs << '\n';
+}
+
+void write_frames(const RecordedTake& take, std::ostream& file) {
   const auto width = static_cast<std::size_t>(take.inputs + take.outputs);
   file << std::setprecision(9);
   for (std::size_t frame = 0; frame < take.seconds.size(); ++frame) {
@@ -61,40 +85,49 @@ void write_take(const RecordedTake& take, std::ostream& file) {
   }
 }
 
+void write_take_end(std::ostream& file) { file << "end\n"; }
+
 std::vector<RecordedTake> read_takes(const std::filesystem::path& file_path) {
   std::ifstream file = open_to_read(file_path, "recorded takes");
   const std::string path = utf8_of(file_path);
   std::string line;
   int number = 1;
-  if (!std::getline(file, line) || line != first_line)
+  std::getline(file, line);
+  const bool counted = line == first_line_before;
+  if (!counted && line != first_line)
     fail(path, number, std::string(1, '\'').append(first_line).append(1, '\''));
   std::vector<RecordedTake> takes;
-  while (++number, std::getline(file, line)) {
-    if (line.empty()) continue;
-    std::istringstream words(line);
-    std::string word, label;
-    int frames = 0;
+  // A line without its end was cut off by a crash in the midst of writing.
+  const auto next_line = [&] {
+    ++number;
+    return static_cast<bool>(std::getline(file, line)) && !file.eof();
+  };
+  bool more = next_line();
+  while (more) {
+    if (line.empty()) {
+      more = next_line();
+      continue;
+    }
     RecordedTake take;
-    if (!(words >> word) || word != "take") fail(path, number, "a line that begins with 'take'");
-    words >> std::ws;
-    if (words.peek() == '"')
-      words >> std::quoted(take.label);
-    else
-      words >> take.label;
-    if (!(words >> frames >> take.inputs >> take.outputs) || frames < 0 || frames > most_frames ||
-        take.inputs < 0 || take.outputs < 0 || take.inputs + take.outputs > most_values)
-      fail(path, number, "take LABEL FRAMES INPUTS OUTPUTS");
-    for (int frame = 0; frame < frames; ++frame) {
-      ++number;
-      const bool there = static_cast<bool>(std::getline(file, line));
-      // A crash in the midst of writing: what is whole stays.
-      if (!there || file.eof()) return takes;
+    int frames = most_frames;
+    if (!read_take_begin(line, counted, take, frames))
+      fail(path, number,
+           counted ? "take LABEL FRAMES INPUTS OUTPUTS" : "take LABEL INPUTS OUTPUTS");
+    const auto add_frame = [&] {
       if (!read_frame(line, take))
         fail(path, number,
              "seconds, greater than before, and " + std::to_string(take.inputs + take.outputs) +
-                 " numbers");
+                 " numbers" + (counted ? "" : ", or 'end'"));
+    };
+    if (counted) {
+      while (take.frames() < frames && (more = next_line())) add_frame();
+      take.finished = take.frames() == frames;
+    } else {
+      while ((more = next_line()) && line != "end" && !line.starts_with("take ")) add_frame();
+      take.finished = more && line == "end";
     }
-    takes.push_back(std::move(take));
+    if (take.finished) more = next_line();
+    if (take.finished || (!counted && take.frames() > 0)) takes.push_back(std::move(take));
   }
   return takes;
 }

@@ -37,10 +37,15 @@ bool BodySender::send(std::span<const float> root, std::span<const float> pose, 
                       std::span<const std::shared_ptr<const Destination>> to) noexcept {
   if (root.size() != 4 || pose.size() != 3 * local_.size()) return false;
   const Skeleton& skeleton = model_->body->skeleton;
-  std::span<const PacketTemplate> packets;
+  bool sent = true;
+  const auto send_all = [&](const auto& packets) {
+    for (const auto& destination : to)
+      for (const auto& packet : packets)
+        if (!destination->send(packet.bytes())) sent = false;
+  };
   if (form_ == MocapForm::gait) {
     own_.pack(root, pose);
-    packets = own_.packets();
+    send_all(own_.packets());
   } else {
     for (std::size_t joint = 0; joint < local_.size(); ++joint) {
       const Eigen::Vector3d vector(pose[3 * joint], pose[3 * joint + 1], pose[3 * joint + 2]);
@@ -57,12 +62,8 @@ bool BodySender::send(std::span<const float> root, std::span<const float> pose, 
     forward_kinematics(skeleton, local_, translations_, world_, places_);
     body_->read(world_, places_, pose_);
     humanoid_->pack(pose_, time, count_++);
-    packets = humanoid_->packets();
+    send_all(humanoid_->packets());
   }
-  bool sent = true;
-  for (const auto& destination : to)
-    for (const PacketTemplate& packet : packets)
-      if (!destination->send(packet.bytes())) sent = false;
   return sent;
 }
 

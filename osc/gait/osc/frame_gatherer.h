@@ -1,59 +1,18 @@
-// Frame gatherer: gathers the events of each performer into frames.
+// Frame gatherer: gathers the events of each sender into frames, and gives each performer a sender.
 //
-// A frame ends with the sender's message that ends it, with the second value of a bone that it
-// already has, or 10 ms after its first event. Performers are distinguished by the sender's address
-// and, within a sender, by skeleton or user. A performer keeps its number until it has been silent
-// for a second and another performer needs the slot. Nothing allocates after construction.
+// A frame ends with the sender's message that ends it; without such messages, when what came first
+// comes again; and at the latest some time after its first event (FrameSource::patience). Sources
+// of frames are distinguished by the sender's address and, within a sender, by skeleton or user. A
+// performer keeps its source until that has been silent for a second and another needs the slot,
+// until the sender restarts under another port or in another form, or until one comes that carries
+// more: a body instead of a face. Nothing but choose() allocates after construction.
 #pragma once
 
-#include <array>
-#include <bitset>
 #include <vector>
 
-#include "gait/motion/humanoid.h"
-#include "gait/osc/mocap_event.h"
+#include "gait/osc/frame_source.h"
 
 namespace gait::osc {
-
-inline constexpr int most_joints = 256;   // of a rig with its own names
-inline constexpr int most_values = 1024;  // of a frame of values
-
-// A joint identified by its own name.
-struct NamedJoint {
-  std::array<char, MocapEvent::name_size> name{}, parent{};
-  int above = -1;  // the parent's index among the named joints, -1: none or not known
-  bool rigged = false;
-  std::array<float, 3> offset{};
-  bool rotated = false, placed = false, relative = false;  // in this frame
-  std::array<float, 4> rotation{0, 0, 0, 1};
-  std::array<float, 3> vector{};  // relative
-  std::array<float, 3> place{};
-};
-
-// One frame of one performer, in the sender's axes and metres. Rotations, places and numbers that
-// the frame did not contain keep the values of the frame before.
-struct CapturedFrame {
-  MocapForm form = MocapForm::none;
-  std::uint64_t sender = 0;
-  std::uint32_t stream = 0;
-  double time = 0;  // arrival of the first event of the frame, seconds
-  std::bitset<humanoid_bones> rotated, placed;
-  std::array<std::array<float, 4>, humanoid_bones> rotations;
-  std::array<std::array<float, 3>, humanoid_bones> places;
-  bool root_told = false;
-  std::array<float, 3> root{};
-  std::array<float, 4> root_rotation{0, 0, 0, 1};
-  float heading = 0;  // own form
-  int values = 0;     // how many there are
-  std::array<float, most_values> numbers{};
-  int joints = 0;  // named ones known so far
-  bool rig_changed = false;
-  std::vector<NamedJoint> named;
-
-  CapturedFrame();
-  void begin(double at) noexcept;  // clears the marks of what the frame contains
-  bool empty() const noexcept;
-};
 
 class FrameSink {
  public:
@@ -63,8 +22,8 @@ class FrameSink {
 
 class FrameGatherer {
  public:
-  static constexpr double patience = 0.010;  // seconds after which an open frame ends
-  static constexpr double silence = 1.0;     // seconds after which a slot may be reused
+  static constexpr double silence = 1.0;    // seconds after which a slot may be reused
+  static constexpr int spare_sources = 16;  // beyond the number of performers
 
   explicit FrameGatherer(int performers);
 
@@ -72,25 +31,35 @@ class FrameGatherer {
   // Ends frames that have been open for too long. `now`: on the clock of arrivals.
   void end_old(double now, FrameSink& sink) noexcept;
 
-  int performers() const noexcept { return static_cast<int>(slots_.size()); }
-  const CapturedFrame& last(int performer) const noexcept { return slots_[performer].frame; }
-  // Number of events refused: of performers without a slot, and of joints beyond most_joints.
+  int performers() const noexcept { return static_cast<int>(source_of_.size()); }
+  const CapturedFrame& last(int performer) const noexcept;
+  // Lets a performer come from these hosts alone, and from their ports where they are not 0;
+  // without any, from everywhere. Allocates.
+  void choose(int performer, std::vector<UdpAddress> from);
+
+  const std::vector<FrameSource>& sources() const noexcept { return sources_; }
+  // The performer of a source, -1: none. `source`: index into sources().
+  int performer_of(int source) const noexcept;
+  // Number of events refused: of sources beyond those there is room for, and of joints beyond
+  // most_joints.
   std::uint64_t refused() const noexcept { return refused_; }
+  // Number of frames of sources that are no performer's.
+  std::uint64_t left_out() const noexcept { return left_out_; }
 
  private:
-  struct Slot {
-    bool used = false;
-    double seen = 0;
-    CapturedFrame frame;
-  };
-  int slot_of(const MocapEvent& event) noexcept;
-  void end(int slot, FrameSink& sink) noexcept;
-  void apply(Slot& slot, const MocapEvent& event) noexcept;
-  void apply_joint(CapturedFrame& frame, const MocapEvent& event) noexcept;
-  bool told_already(const CapturedFrame& frame, const MocapEvent& event) const noexcept;
+  int source_of(const MocapEvent& event) noexcept;
+  int known_source(const MocapEvent& event) noexcept;
+  int hopping_source(const MocapEvent& event) noexcept;
+  int free_source(double now) const noexcept;
+  int performer_for(int source) noexcept;
+  bool allowed(int performer, const UdpAddress& sender) const noexcept;
+  bool replaces(const FrameSource& source, const FrameSource& before) const noexcept;
+  void end(int source, FrameSink& sink) noexcept;
 
-  std::vector<Slot> slots_;
-  std::uint64_t refused_ = 0;
+  std::vector<FrameSource> sources_;
+  std::vector<int> source_of_;  // per performer, -1: none
+  std::vector<std::vector<UdpAddress>> from_;
+  std::uint64_t refused_ = 0, left_out_ = 0;
 };
 
 }  // namespace gait::osc

@@ -2,8 +2,8 @@
 #include <algorithm>
 #include <cmath>
 
-#include "gait/osc/frame_gatherer.h"
-#include "gait/osc/mocap_reader.h"
+#include "gait/osc/captured_frame.h"
+#include "gait/osc/readers.h"
 
 namespace gait::osc {
 

@@ -1,9 +1,14 @@
-// Jitter buffer: delays frames that arrive unevenly such that they leave evenly. Without delay each
-// leaves at once. When it is full it drops the oldest frame. Nothing allocates after construction.
+// Jitter buffer: delays frames that arrive unevenly such that they leave evenly. A frame leaves the
+// delay after the moment at which it would have arrived if nothing had held it up (SendTimes), so
+// all that is late by less than the delay leaves evenly. Without delay each leaves at once. When it
+// is full it drops the oldest frame. Nothing allocates after construction.
 #pragma once
 
 #include <span>
 #include <vector>
+
+#include "gait/osc/mocap_event.h"
+#include "gait/osc/send_times.h"
 
 namespace gait::osc {
 
@@ -15,13 +20,13 @@ class JitterBuffer {
   explicit JitterBuffer(int values);
 
   void set_delay(double seconds) noexcept { delay_ = seconds; }
-  // `time`: of arrival, seconds.
-  void push(double time, std::span<const float> values) noexcept;
+  // `time`: of arrival, seconds. `sent`: by the sender's clock, as SendTimes takes it.
+  void push(double time, std::span<const float> values, double sent = not_sent) noexcept;
   // The oldest frame if it is due, empty otherwise; valid until the next call.
   std::span<const float> pop(double now) noexcept;
   // When the frame that was popped last arrived.
   double arrival() const noexcept { return arrival_; }
-  void reset() noexcept { count_ = 0, arrivals_ = 0; }  // of frames and of the sender's clock
+  void reset() noexcept { count_ = 0, times_.reset(); }  // of frames and of the sender's clock
   int waiting() const noexcept { return count_; }
   // Number of frames dropped because the buffer was full, since construction.
   int lost() const noexcept { return lost_; }
@@ -32,19 +37,7 @@ class JitterBuffer {
   std::vector<float> frames_;
   double due_[most_frames] = {}, arrived_[most_frames] = {}, arrival_ = 0;
   int first_ = 0, count_ = 0, lost_ = 0;
-
-  // Estimate of the sender's clock: a regression line of the latest arrivals over their frame
-  // numbers; lost frames have numbers too.
-  struct Line {
-    double number = 0, time = 0, period = 0, scatter = 0;  // a point on it, its slope, seconds
-    double at(double n) const noexcept { return time + period * (n - number); }
-  };
-  static constexpr int most_arrivals = 64;
-  double number_after(double time) const noexcept;
-  void fit_line() noexcept;
-  Line line_;
-  double numbers_[most_arrivals] = {}, times_[most_arrivals] = {};
-  int arrivals_ = 0, latest_ = 0, holes_ = 0;
+  SendTimes times_;
 };
 
 }  // namespace gait::osc

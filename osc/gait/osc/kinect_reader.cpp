@@ -5,7 +5,7 @@
 //   reckons x = (1280 - X) / 2560, y = (960 - Y) / 1920, z = Z / 1280 of millimetres.
 // Wrists are ignored, as hands are always sent. SenderPose finds out the directions of X and Y.
 #include "gait/motion/humanoid.h"
-#include "gait/osc/mocap_reader.h"
+#include "gait/osc/readers.h"
 
 namespace gait::osc {
 

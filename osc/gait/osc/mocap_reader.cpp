@@ -2,21 +2,28 @@
 
 #include <cmath>
 
+#include "gait/osc/forms.h"
+
 namespace gait::osc {
 
+MocapReader::MocapReader(MocapForm form) {
+  for (const FormFacts& facts : all_forms())
+    if (form == MocapForm::none || form == facts.form) readers_.push_back(facts.reader());
+}
+
 Reading MocapReader::read(const OscMessage& message, const Arrival& arrival, EventSink& sink) {
-  const auto wanted = [this](MocapForm form) { return form_ == MocapForm::none || form_ == form; };
-  Reading reading = Reading::unknown;
-  if (wanted(MocapForm::vmc)) reading = read_vmc(message, arrival, sink);
-  if (reading == Reading::unknown && wanted(MocapForm::gait))
-    reading = read_gait(message, arrival, sink);
-  if (reading == Reading::unknown && wanted(MocapForm::natnet))
-    reading = read_natnet(message, arrival, bone_numbers_, sink);
-  if (reading == Reading::unknown && wanted(MocapForm::neuron))
-    reading = read_neuron(message, arrival, sink);
-  if (reading == Reading::unknown && wanted(MocapForm::kinect))
-    reading = read_kinect(message, arrival, sink);
-  return reading;
+  for (const auto& reader : readers_)
+    if (const Reading reading = reader->read(message, arrival, sink); reading != Reading::unknown)
+      return reading;
+  return Reading::unknown;
+}
+
+Reading MocapReader::read(std::span<const std::byte> datagram, const Arrival& arrival,
+                          EventSink& sink) {
+  for (const auto& reader : readers_)
+    if (const Reading reading = reader->read(datagram, arrival, sink); reading != Reading::unknown)
+      return reading;
+  return Reading::unknown;
 }
 
 MocapEvent event_of(MocapKind kind, MocapForm form, const Arrival& arrival) {
@@ -28,15 +35,18 @@ MocapEvent event_of(MocapKind kind, MocapForm form, const Arrival& arrival) {
   return event;
 }
 
-bool rotation_in(const OscMessage& message, int first, MocapEvent& event) {
-  std::array<float, 4> q;
-  if (!message.numbers(first, 4, q.data())) return false;
+bool set_rotation(std::span<const float, 4> q, MocapEvent& event) {
   const double norm = std::sqrt(double{q[0]} * q[0] + double{q[1]} * q[1] + double{q[2]} * q[2] +
                                 double{q[3]} * q[3]);
-  if (norm < 1e-3) return false;
+  if (!(norm >= 1e-3) || !std::isfinite(norm)) return false;
   for (std::size_t i = 0; i < 4; ++i) event.rotation[i] = static_cast<float>(q[i] / norm);
   event.rotated = true;
   return true;
+}
+
+bool rotation_in(const OscMessage& message, int first, MocapEvent& event) {
+  std::array<float, 4> q;
+  return message.numbers(first, 4, q.data()) && set_rotation(q, event);
 }
 
 }  // namespace gait::osc

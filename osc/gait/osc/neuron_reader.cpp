@@ -1,7 +1,7 @@
 // NeuronOSC, from Axis Neuron (read from github.com/fusefactory/ofxPerceptionNeuronOSC): 59 joints
 // by number, place and rotation x y z w.
-#include "gait/osc/mocap_reader.h"
 #include "gait/osc/neuron_joints.h"
+#include "gait/osc/readers.h"
 
 namespace gait::osc {
 

@@ -68,6 +68,11 @@ void open(std::span<const std::byte> bytes, int depth, Opening& opening) {
 
 }  // namespace
 
+bool is_osc(std::span<const std::byte> bytes) noexcept {
+  return (!bytes.empty() && bytes[0] == std::byte{'/'}) ||
+         (bytes.size() >= 8 && std::memcmp(bytes.data(), "#bundle", 8) == 0);
+}
+
 PacketContent open_packet(std::span<const std::byte> bytes,
                           void (*take)(void* context, const OscMessage& message), void* context) {
   Opening opening{take, context, {}};

@@ -17,6 +17,9 @@ struct PacketContent {
 // Deepest nesting of bundles that is read; senders of motion do not nest at all.
 inline constexpr int deepest_bundle = 8;
 
+// Whether a datagram begins as OSC does.
+bool is_osc(std::span<const std::byte> bytes) noexcept;
+
 // Calls `take(context, message)` for each message in order. Bytes need not be OSC.
 PacketContent open_packet(std::span<const std::byte> bytes,
                           void (*take)(void* context, const OscMessage& message), void* context);

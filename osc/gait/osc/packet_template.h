@@ -11,6 +11,8 @@ namespace gait::osc {
 
 class PacketTemplate {
  public:
+  static constexpr std::size_t head = 20;  // bytes of the bundle before its first message
+
   // Adds a message: `types` as OSC names them, of s, i and f; the strings in order. Its numbers (i
   // and f) are set with set(). Throws Error when it does not fit a packet.
   void add(const std::string& path, const std::string& types,

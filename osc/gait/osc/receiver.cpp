@@ -1,5 +1,6 @@
 #include "gait/osc/receiver.h"
 
+#include <algorithm>
 #include <chrono>
 #include <optional>
 #include <string>
@@ -13,7 +14,8 @@ namespace gait::osc {
 namespace {
 
 constexpr std::size_t largest_packet = 65536;
-constexpr int kernel_buffer = 1 << 21;  // bytes, enough for a busy moment
+constexpr int kernel_buffer = 1 << 21;   // bytes, enough for a busy moment
+constexpr std::size_t most_unknown = 6;  // addresses to remember
 
 int checked_port(int port) {
   if (port < 0 || port > 65535)
@@ -26,7 +28,7 @@ int checked_port(int port) {
 Receiver::Receiver(const ReceiverSettings& settings)
     : reader_(settings.form),
       ring_(settings.capacity),
-      socket_(checked_port(settings.port), settings.any, kernel_buffer),
+      listener_(checked_port(settings.port), settings.any, kernel_buffer),
       thread_([this] { run(); }) {}
 
 Receiver::~Receiver() {
@@ -52,37 +54,71 @@ void Receiver::run() {
 // Receives all waiting packets, but returns in time to see that the thread should end.
 void Receiver::receive_all(std::span<std::byte> buffer) {
   for (int i = 0; i < 256; ++i) {
-    UdpAddress from;
-    const std::optional<std::size_t> count = socket_.receive(buffer, from);
+    const std::optional<std::size_t> count = listener_.receive(buffer, arrival_.sender);
     if (!count) return;
     arrival_.time = now();
-    arrival_.sender = std::uint64_t{from.host} << 16 | from.port;
     packets_.fetch_add(1, std::memory_order_relaxed);
-    const PacketContent content = open_packet(
-        buffer.first(*count),
-        [](void* self, const OscMessage& message) {
-          static_cast<Receiver*>(self)->take_message(message);
-        },
-        this);
-    faulty_.fetch_add(static_cast<std::uint64_t>(content.faulty), std::memory_order_relaxed);
+    take_packet(buffer.first(*count));
   }
 }
 
-void Receiver::take_message(const OscMessage& message) {
-  messages_.fetch_add(1, std::memory_order_relaxed);
-  switch (reader_.read(message, arrival_, *this)) {
-    case Reading::taken:
-      break;
-    case Reading::unknown:
-      unknown_.fetch_add(1, std::memory_order_relaxed);
-      break;
-    case Reading::faulty:
-      faulty_.fetch_add(1, std::memory_order_relaxed);
+void Receiver::take_packet(std::span<const std::byte> packet) {
+  if (!is_osc(packet)) {
+    const Reading reading = reader_.read(packet, arrival_, *this);
+    messages_.fetch_add(reading == Reading::unknown ? 0 : 1, std::memory_order_relaxed);
+    count(reading == Reading::unknown ? Reading::faulty : reading);
+    return;
+  }
+  const PacketContent content = open_packet(
+      packet,
+      [](void* self, const OscMessage& message) {
+        auto& receiver = *static_cast<Receiver*>(self);
+        receiver.messages_.fetch_add(1, std::memory_order_relaxed);
+        const Reading reading = receiver.reader_.read(message, receiver.arrival_, receiver);
+        receiver.count(reading);
+        if (reading == Reading::unknown) receiver.remember(message.path());
+      },
+      this);
+  faulty_.fetch_add(static_cast<std::uint64_t>(content.faulty), std::memory_order_relaxed);
+}
+
+void Receiver::count(Reading reading) {
+  if (reading == Reading::unknown) unknown_.fetch_add(1, std::memory_order_relaxed);
+  if (reading == Reading::faulty) faulty_.fetch_add(1, std::memory_order_relaxed);
+}
+
+void Receiver::remember(std::string_view address) {
+  const std::lock_guard lock(unknown_mutex_);
+  if (unknown_addresses_.size() == most_unknown ||
+      std::ranges::find(unknown_addresses_, address) != unknown_addresses_.end())
+    return;
+  unknown_addresses_.emplace_back(address.substr(0, 80));
+}
+
+std::string Receiver::unknown_addresses() const {
+  const std::lock_guard lock(unknown_mutex_);
+  std::string text;
+  for (const std::string& address : unknown_addresses_)
+    text += (text.empty() ? ": " : ", ") + address;
+  return text;
+}
+
+std::string_view Receiver::notice() const noexcept {
+  switch (notice_.load(std::memory_order_relaxed)) {
+    case Notice::rokoko_compressed:
+      return "Rokoko Studio sends a compressed stream: in its Custom Streaming choose the format "
+             "'JSON v3', not a compressed one (LZ4)";
+    case Notice::none:
       break;
   }
+  return {};
 }
 
 void Receiver::take(const MocapEvent& event) {
+  if (event.kind == MocapKind::notice) {
+    notice_.store(static_cast<Notice>(event.first), std::memory_order_relaxed);
+    return;
+  }
   if (!ring_.push(event)) dropped_.fetch_add(1, std::memory_order_relaxed);
 }
 

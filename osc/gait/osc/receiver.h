@@ -5,7 +5,11 @@
 #include <atomic>
 #include <cstdint>
 #include <memory>
+#include <mutex>
 #include <span>
+#include <string>
+#include <string_view>
+#include <vector>
 
 #include "gait/joining_thread.h"
 #include "gait/osc/event_ring.h"
@@ -15,6 +19,7 @@
 
 namespace gait::osc {
 
+// From this machine, or from every one, over IPv4 and IPv6.
 struct ReceiverSettings {
   int port = 39539;                  // 0: any free one
   bool any = false;                  // from other machines too, not only this one
@@ -38,10 +43,14 @@ class Receiver final : EventSink {
   Receiver(const Receiver&) = delete;
   Receiver& operator=(const Receiver&) = delete;
 
-  int port() const { return socket_.port(); }
+  int port() const noexcept { return listener_.port(); }
   // The next event, in the order of arrival; false when there is none. One thread at a time.
   bool pop(MocapEvent& event) noexcept { return ring_.pop(event); }
   Received received() const noexcept;
+  // What the user should know about the stream, as one sentence; empty: nothing.
+  std::string_view notice() const noexcept;
+  // ": /face/eyes, /face/mouth": some addresses of messages that move no body; empty without any.
+  std::string unknown_addresses() const;
 
   // The clock of arrivals, in seconds.
   static double now() noexcept;
@@ -50,14 +59,19 @@ class Receiver final : EventSink {
   void run();
   void receive_all(std::span<std::byte> buffer);
   void take(const MocapEvent& event) override;
-  void take_message(const OscMessage& message);
+  void take_packet(std::span<const std::byte> packet);
+  void count(Reading reading);
+  void remember(std::string_view address);
 
   MocapReader reader_;
   EventRing<MocapEvent> ring_;
-  UdpSocket socket_;
-  PacketWaiter waiter_{socket_};  // woken, it ends the thread
+  UdpListener listener_;
+  PacketWaiter waiter_{listener_};  // woken, it ends the thread
   Arrival arrival_;
   std::atomic<std::uint64_t> packets_{0}, messages_{0}, unknown_{0}, faulty_{0}, dropped_{0};
+  std::atomic<Notice> notice_{Notice::none};
+  mutable std::mutex unknown_mutex_;  // not for Pd's thread while it plays
+  std::vector<std::string> unknown_addresses_;
   JoiningThread thread_;
 };
 

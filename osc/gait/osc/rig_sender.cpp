@@ -3,7 +3,7 @@
 #include <algorithm>
 
 #include "gait/error.h"
-#include "gait/osc/frame_gatherer.h"
+#include "gait/osc/captured_frame.h"
 
 namespace gait::osc {
 

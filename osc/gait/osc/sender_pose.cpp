@@ -3,6 +3,7 @@
 #include <algorithm>
 
 #include "gait/motion/turns_from_places.h"
+#include "gait/osc/forms.h"
 
 namespace gait::osc {
 
@@ -46,8 +47,10 @@ int limb_end(int bone) {
 }  // namespace
 
 bool SenderPose::take(const CapturedFrame& frame) noexcept {
-  if (frame.form == MocapForm::gait || frame.form == MocapForm::none) return false;
-  const bool left_handed = frame.form == MocapForm::vmc;
+  if (frame.form == MocapForm::none) return false;
+  const FormSpace space = facts_of(frame.form).space;
+  if (space == FormSpace::own) return false;
+  const bool left_handed = space == FormSpace::unity;
   const std::array<float, 3> nowhere{};
   for (std::size_t bone = 1; bone < humanoid_bones; ++bone)
     if (frame.placed[bone] && frame.places[bone] != nowhere) places_known_ = true;
@@ -69,12 +72,13 @@ bool SenderPose::take(const CapturedFrame& frame) noexcept {
     }
     if (frame.rotated[bone]) seen_[bone] = frame.time;
   }
-  if (frame.root_told && frame.form == MocapForm::vmc) {
+  if (frame.root_told && space == FormSpace::unity) {
     root_ = mirrored(place_of(frame.root));
     root_rotation_ = mirrored(rotation_of(frame.root_rotation));
   }
-  in_world_ = in_world_ || (frame.form != MocapForm::vmc && told_in_world(told_));
-  if (frame.form == MocapForm::kinect)
+  in_world_ = in_world_ || space == FormSpace::world ||
+              (space == FormSpace::judged && told_in_world(told_));
+  if (space == FormSpace::camera)
     take_places(frame);
   else if (in_world_)
     take_world();

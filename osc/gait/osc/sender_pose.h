@@ -3,7 +3,7 @@
 #pragma once
 
 #include "gait/motion/humanoid.h"
-#include "gait/osc/frame_gatherer.h"
+#include "gait/osc/captured_frame.h"
 
 namespace gait::osc {
 

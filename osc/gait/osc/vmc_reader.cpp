@@ -1,8 +1,8 @@
 // The VMC protocol (github.com/sh-akira/VirtualMotionCaptureProtocol, 2.1 to 2.7): Unity's
-// humanoid, left-handed, local places and rotations. /OK and /T end a frame; nothing else of it
-// moves a body.
+// humanoid, left-handed, local places and rotations. /OK and /T, which tells the sender's clock,
+// end a frame; nothing else of it moves a body.
 #include "gait/motion/humanoid.h"
-#include "gait/osc/mocap_reader.h"
+#include "gait/osc/readers.h"
 
 namespace gait::osc {
 
@@ -11,8 +11,11 @@ Reading read_vmc(const OscMessage& message, const Arrival& arrival, EventSink& s
   if (!path.starts_with("/VMC/Ext/")) return Reading::unknown;
   path.remove_prefix(9);
   if (path == "OK" || path == "T") {
-    if (!message.number(0)) return Reading::faulty;
-    sink.take(event_of(MocapKind::edge, MocapForm::vmc, arrival));
+    const auto number = message.number(0);
+    if (!number) return Reading::faulty;
+    MocapEvent edge = event_of(MocapKind::edge, MocapForm::vmc, arrival);
+    if (path == "T") edge.sent = *number;
+    sink.take(edge);
     return Reading::taken;
   }
   const bool root = path == "Root/Pos";
