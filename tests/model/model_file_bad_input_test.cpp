@@ -355,9 +355,12 @@ TEST(BadModelFile, every_byte_of_the_structure_can_be_wrong) {
   std::vector<bool> inside(small_bytes().size(), false);
   for (std::size_t at = 0; at + 3 < small_bytes().size(); ++at)
     if (small_bytes()[at] == 0xd8 && small_bytes()[at + 1] == 86) {
-      const std::size_t head = small_bytes()[at + 2] == 0x58 ? 4 : 5;  // one or two bytes of length
-      const std::size_t length =
-          head == 4 ? small_bytes()[at + 3] : 256 * small_bytes()[at + 3] + small_bytes()[at + 4];
+      // The length stands in the head itself, or in one or two bytes after it.
+      const std::size_t kind = small_bytes()[at + 2];
+      const std::size_t head = kind < 0x58 ? 3 : kind == 0x58 ? 4 : 5;
+      const std::size_t length = head == 3   ? kind - 0x40
+                                 : head == 4 ? small_bytes()[at + 3]
+                                             : 256 * small_bytes()[at + 3] + small_bytes()[at + 4];
       for (std::size_t i = at + head; i < at + head + length; ++i) inside[i] = true;
       at += head + length - 1;
     }
