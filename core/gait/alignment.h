@@ -1,5 +1,6 @@
 // Eigen aligns what it stores by the instruction set that it is compiled for. Structs and memory of
-// a program for a larger set than the library's are laid out differently: such a program would crash.
+// a program for a larger set than the library's are laid out differently: such a program would
+// crash.
 #pragma once
 
 #include <Eigen/Core>

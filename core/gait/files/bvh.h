@@ -13,8 +13,8 @@
 #include <string_view>
 #include <vector>
 
-#include "gait/motion/clip.h"
 #include "gait/alignment.h"
+#include "gait/motion/clip.h"
 
 namespace gait {
 

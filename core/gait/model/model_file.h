@@ -11,8 +11,8 @@
 #include <string>
 #include <vector>
 
-#include "gait/model/model.h"
 #include "gait/alignment.h"
+#include "gait/model/model.h"
 
 namespace gait {
 
