@@ -49,12 +49,9 @@ TEST(Contacts, are_found_whichever_way_the_walk_goes_and_at_other_rates) {
   const WalkTrack ahead = follow(walk.clip);
   for (const double angle : {-2.5, -1.0, 0.7, 3.1}) {
     const std::vector<Contact> other_way = follow(turned(walk.clip, angle)).contacts;
-    ASSERT_EQ(other_way.size(), ahead.contacts.size());
-    for (std::size_t i = 0; i < other_way.size(); ++i) {
-      EXPECT_EQ(other_way[i].frame, ahead.contacts[i].frame);
-      EXPECT_EQ(other_way[i].foot, ahead.contacts[i].foot);
+    ASSERT_EQ(other_way, ahead.contacts);
+    for (std::size_t i = 0; i < other_way.size(); ++i)
       EXPECT_NEAR(other_way[i].offset, ahead.contacts[i].offset, 1e-6);
-    }
   }
   WalkPlan plan;
   plan.style = corpus_style("cool");

@@ -7,6 +7,7 @@
 #include <random>
 
 #include "gait/learn/walk_sequences.h"
+#include "gait/model/body_pose.h"
 #include "gait/motion/resample.h"
 #include "gait/play/input/sender_clock.h"
 #include "gait/play/recognise/live_recogniser.h"
@@ -42,8 +43,7 @@ class Listening {
   void arrive(double now, std::span<const float> values) {
     live_.stream().push(sender_.time_of_arrival(now), values);
     while (live_.next()) {
-      if (live_.first_of_run() || live_.walking() != clock_.walking())
-        clock_.set_walking(live_.walking());
+      clock_.set_walking(live_.walking());
       const PhaseEstimate& estimate = live_.recogniser().phase_estimate();
       clock_.observe(estimate.seen, estimate.certainty, live_.estimate_late());
       if (live_.walking() && live_.decision().label != label_) {

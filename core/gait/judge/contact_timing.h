@@ -9,7 +9,6 @@
 #include <string_view>
 #include <vector>
 
-#include "gait/model/body_pose.h"
 #include "gait/motion/clip.h"
 #include "gait/motion/steps.h"
 #include "gait/play/play_model.h"

@@ -69,6 +69,14 @@ HeldFigures figures_of(const std::vector<HeldOut>& folds, const std::vector<doub
   return sums;
 }
 
+float usual_distance(std::vector<float>& distances) {
+  const auto usual =
+      distances.begin() +
+      static_cast<std::ptrdiff_t>(usual_share * static_cast<double>(distances.size() - 1));
+  std::nth_element(distances.begin(), usual, distances.end());
+  return *usual;
+}
+
 void set_what_is_usual(Model& model, const std::vector<HeldOut>& folds,
                        const std::vector<int>& styles) {
   StyleScores scores;
@@ -86,13 +94,7 @@ void set_what_is_usual(Model& model, const std::vector<HeldOut>& folds,
       }
     }
   PlayDefaults& play = model.play;
-  if (!distances.empty()) {
-    const auto usual =
-        distances.begin() +
-        static_cast<std::ptrdiff_t>(usual_share * static_cast<double>(distances.size() - 1));
-    std::nth_element(distances.begin(), usual, distances.end());
-    play.usual_distance = std::max(1e-3f, *usual);
-  }
+  if (!distances.empty()) play.usual_distance = std::max(1e-3f, usual_distance(distances));
   play.style_temper = best_temper(scores, play.style_temper);
   CalibrationError calibration;
   for (std::size_t i = 0; i < scores.truth.size(); ++i) {

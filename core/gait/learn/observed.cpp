@@ -106,6 +106,12 @@ Eigen::MatrixXd with_differences(const Eigen::MatrixXd& values, const std::vecto
   return y;
 }
 
+Eigen::MatrixXd scaled_by(const Scaling& scaling, const Eigen::MatrixXd& values) {
+  return ((values.colwise() - scaling.mean).array().colwise() *
+          scaling.deviation.cwiseInverse().array())
+      .matrix();
+}
+
 ObservationSet observe(const std::vector<Sequence>& sequences, const std::vector<int>& lags,
                        double clip) {
   ObservationSet set;
@@ -144,15 +150,10 @@ ObservationSet observe(const std::vector<Sequence>& sequences, const std::vector
   for (std::size_t i = 0; i < raw.size(); ++i) {
     const Sequence& sequence = raw[i];
     ObservedSequence observed{sequence.name, {}, {}, sequence.segments, sequence.style, sources[i]};
-    const auto scaled = [](const Eigen::MatrixXd& values, const Scaling& scaling) {
-      return Eigen::MatrixXd(((values.colwise() - scaling.mean).array().colwise() *
-                              scaling.deviation.cwiseInverse().array())
-                                 .matrix());
-    };
-    observed.x = scaled(sequence.inputs, set.input_scaling);
+    observed.x = scaled_by(set.input_scaling, sequence.inputs);
     for (int frame = 0; frame < observed.x.cols(); ++frame)
       clip_observation(set.input, set.input.known(frame), observed.x.col(frame));
-    observed.y = scaled(sequence.outputs, set.output_scaling);
+    observed.y = scaled_by(set.output_scaling, sequence.outputs);
     set.sequences.push_back(std::move(observed));
   }
   return set;

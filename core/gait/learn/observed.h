@@ -25,6 +25,9 @@ inline constexpr double least_deviation = 1e-3;
 // differences; at the ends the frame itself stands in for the missing neighbour.
 Eigen::MatrixXd with_differences(const Eigen::MatrixXd& values, const std::vector<int>& modelled);
 
+// Scales `values` (entries by frames): per entry, less its mean, over its deviation.
+Eigen::MatrixXd scaled_by(const Scaling& scaling, const Eigen::MatrixXd& values);
+
 // Makes observations and scales them by their mean and deviation over the frames between each
 // sequence's first and last segment. Differences reach `lags` frames back. Frames without that
 // history, or without a neighbour for the output's differences, are left out, with their segments.

@@ -17,10 +17,12 @@ struct Counted {
   Eigen::VectorXd sum, deviations;  // of all frames; sum of squares about the styles' means
 };
 
-// Statics of inputs and outputs, then their first, then second differences.
-Eigen::MatrixXd trajectory_of(const Sequence& sequence, const ObservationSet& observed) {
-  const Eigen::MatrixXd inputs = with_differences(sequence.inputs, observed.input.modelled);
-  const Eigen::MatrixXd outputs = with_differences(sequence.outputs, observed.output.modelled);
+}  // namespace
+
+Eigen::MatrixXd trajectory_of(const Sequence& sequence, const InputLayout& input,
+                              const OutputLayout& output) {
+  const Eigen::MatrixXd inputs = with_differences(sequence.inputs, input.modelled);
+  const Eigen::MatrixXd outputs = with_differences(sequence.outputs, output.modelled);
   const Eigen::Index of_input = inputs.rows() / 3, of_output = outputs.rows() / 3;
   Eigen::MatrixXd all(inputs.rows() + outputs.rows(), inputs.cols());
   for (Eigen::Index part = 0; part < 3; ++part)
@@ -29,8 +31,6 @@ Eigen::MatrixXd trajectory_of(const Sequence& sequence, const ObservationSet& ob
         outputs.middleRows(part * of_output, of_output);
   return all;
 }
-
-}  // namespace
 
 void set_trajectories(Model& model, const std::vector<Sequence>& sequences,
                       const ObservationSet& observed, const StateTable& table,
@@ -46,7 +46,7 @@ void set_trajectories(Model& model, const std::vector<Sequence>& sequences,
                     Eigen::VectorXd::Zero(entries), Eigen::VectorXd::Zero(entries)});
   std::vector<Eigen::MatrixXd> values;
   for (const ObservedSequence& sequence : observed.sequences)
-    values.push_back(trajectory_of(sequences[sequence.source], observed));
+    values.push_back(trajectory_of(sequences[sequence.source], observed.input, observed.output));
 
   for (std::size_t i = 0; i < values.size(); ++i)
     for (const Occupancy& at : alignments[i].occupancies) {

@@ -10,6 +10,11 @@
 
 namespace gait {
 
+// The values of a sequence that move, the inputs' then the outputs', then of all of them the first,
+// then the second differences: entries by frames, unscaled.
+Eigen::MatrixXd trajectory_of(const Sequence& sequence, const InputLayout& input,
+                              const OutputLayout& output);
+
 // Sets trajectory_means and trajectory_variances of the model's states. `sequences` as given to
 // observe(), `alignments` one per sequence of `observed`. A style without frames in a state
 // gets that state's mean over all styles.

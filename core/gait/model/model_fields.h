@@ -56,9 +56,8 @@ void fields_of(auto& file, PartOf<State> auto& state, const LabelContents& conte
   file("stay", state.stay);
   file("duration", state.duration);
   file("weight", state.weight);
-  const bool has_phase = state.phase_covariance.size() > 0;
-  file.optional("phase", state.phase, has_phase);
-  file.optional("phase_covariance", state.phase_covariance, has_phase);
+  file.optional("phase_covariance", state.phase_covariance, state.phase_covariance.size() > 0);
+  if (state.phase_covariance.size() > 0) file("phase", state.phase);
   if (contents.trajectories) {
     file("trajectory_means", state.trajectory_means);
     file("trajectory_variances", state.trajectory_variances);

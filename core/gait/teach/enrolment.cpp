@@ -5,9 +5,11 @@
 #include <numbers>
 
 #include "gait/error.h"
+#include "gait/judge/folds.h"
 #include "gait/judge/played_sequence.h"
 #include "gait/learn/state_statistics.h"
 #include "gait/learn/trainer.h"
+#include "gait/learn/trajectory_statistics.h"
 #include "gait/motion/contacts.h"
 #include "gait/motion/resample.h"
 
@@ -18,7 +20,6 @@ namespace {
 constexpr int fewest_cycles = 2;
 constexpr double half_share_seconds = 5;    // of walking: then the stranger is half of the model
 constexpr double straight_limit = 0.17453;  // radians by which the heading may change (T10 §3)
-constexpr double distances_below = 0.98;    // as model selection has it
 
 // One cycle of the stranger: scaled observations, and where it was cut from.
 struct StrangerCycle {
@@ -45,10 +46,6 @@ void check_enrollable(const Model& model) {
         "needs; the model was made before models kept it: train it again");
 }
 
-Eigen::MatrixXd scaled_by(const Eigen::MatrixXd& values, const Scaling& scaling) {
-  return scaling.deviation.cwiseInverse().asDiagonal() * (values.colwise() - scaling.mean);
-}
-
 // All of a sequence as the model observes it, then cut into straight cycles of two steps.
 // `heading`: radians, per frame.
 void add_cycles(const Model& model, const Sequence& sequence, const std::vector<double>& heading,
@@ -61,14 +58,9 @@ void add_cycles(const Model& model, const Sequence& sequence, const std::vector<
         {sequence.inputs.col(frame).data(), static_cast<std::size_t>(model.input.values)});
     x.col(frame) = observer.scaled();
   }
-  const Eigen::MatrixXd outputs = with_differences(sequence.outputs, model.output.modelled);
-  const Eigen::MatrixXd inputs = with_differences(sequence.inputs, model.input.modelled);
-  const Eigen::MatrixXd y = scaled_by(outputs, model.output_scaling);
-  Eigen::MatrixXd trajectory(inputs.rows() + outputs.rows(), frames);
-  const Eigen::Index in = inputs.rows() / 3, out = outputs.rows() / 3;
-  for (Eigen::Index part = 0; part < 3; ++part)
-    trajectory.middleRows(part * (in + out), in + out) << inputs.middleRows(part * in, in),
-        outputs.middleRows(part * out, out);
+  const Eigen::MatrixXd y =
+      scaled_by(model.output_scaling, with_differences(sequence.outputs, model.output.modelled));
+  const Eigen::MatrixXd trajectory = trajectory_of(sequence, model.input, model.output);
 
   const int history = model.input.lags.empty() ? 0 : model.input.lags.back();
   std::vector<Segment> segments;
@@ -103,7 +95,7 @@ Stranger stranger_of(const Model& model, const std::vector<Walk>& walks,
   for (const Walk& walk : walks) {
     const Clip clip = resampled(walk.clip, model.frame_rate);
     const std::vector<int> matched = match_joints(*model.body, clip.skeleton, clip.name);
-    WalkTrack track = follow_walk(clip, find_roles(clip.skeleton, options.roles));
+    WalkTrack track = follow_walk(clip, find_roles(clip, options.roles));
     if (!walk.contacts.empty())
       track.contacts = contacts_at(walk.contacts, model.frame_rate / walk.clip.frame_rate);
     const BodyPoses poses = body_poses(clip, *model.body, matched, track.cycle_seconds);
@@ -317,12 +309,8 @@ Enrolled enrol(const Model& model, const std::vector<Walk>& walks,
   const Merge merge(model, stranger, all, options.weight);
   enrolled.model = merge.merged();
   Model& merged = enrolled.model;
-  const auto usual = after.distances.begin() +
-                     static_cast<std::ptrdiff_t>(distances_below *
-                                                 static_cast<double>(after.distances.size() - 1));
-  std::nth_element(after.distances.begin(), usual, after.distances.end());
-  merged.play.usual_distance =
-      std::max(1e-3, (1 - merge.share()) * model.play.usual_distance + merge.share() * *usual);
+  merged.play.usual_distance = std::max(1e-3, (1 - merge.share()) * model.play.usual_distance +
+                                                  merge.share() * usual_distance(after.distances));
   for (const Walk& walk : walks) {
     merged.training.clips.push_back(walk.clip.name);
     if (!walk.subject.empty() &&

@@ -57,7 +57,7 @@ Followed follow(const Model& model, const CorpusWalk& walk, Decoding decoding) {
   Emissions emissions(tables, model.input);
   Decoder decoder(tables, decoding.kind, decoding.lag, 0.1f, model.frame_rate);
   const PhaseEstimator estimator(model);
-  PhaseClock clock({.cadence = estimator.cycle(0).cadence(), .wander = 0.2});  // as Recogniser
+  PhaseClock clock({.cadence = estimator.cycle(0).cadence()});
   std::vector<float> values(model.input.values);
   std::vector<Eigen::Quaternionf> references, pose(body.references.size());
   for (const auto& reference : body.references) references.push_back(reference.cast<float>());

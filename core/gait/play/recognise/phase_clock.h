@@ -23,7 +23,7 @@ struct PhaseClockSettings {
   double fastest = 4;            // cycles/s
   double noise = 0.04;           // deviation of an estimate, cycles
   double contact_noise = 0.012;  // deviation of a contact, cycles
-  double wander = 0.1;           // share by which frequency changes over one cycle
+  double wander = 0.2;           // share by which frequency changes over one cycle
 };
 
 class PhaseClock {

@@ -24,7 +24,6 @@ Decoder decoder_for(const Model& model, const RecogniserSettings& settings,
 
 PhaseClockSettings Recogniser::clock_settings_of(const Model& model, const PhaseEstimator& phase) {
   PhaseClockSettings settings;
-  settings.wander = 0.2;  // who walks unevenly must be followed
   if (model.labels.empty()) return settings;
   settings.steps = std::clamp(phase.cycle(0).labels, 1, 64);
   const double cadence = phase.cycle(0).cadence(), cycles = cadence / settings.steps;
